@@ -28,7 +28,7 @@ struct OutputOptions {
   DepthCoding depth;
   KeptWishes keep;
   std::optional<SwapEyes> from_views;          // make the depth from a film's two views; nullopt: the film has depth
-  std::optional<OneViewWishes> from_one_view;  // or guess it
+  std::optional<OneViewWishes> from_one_view;  // make the depth from one view, by a command or a network; nullopt: no
   std::optional<Enhancement> enhancement;      // nullopt: no enhancement
   std::vector<Painting> paintings;             // the material of places; empty: none
   std::string preview;                         // path of a PNG, see preview.h; empty: none

@@ -116,8 +116,8 @@ Outcome<void> chooseDepth(Arguments& a) {
   if (a.depth_from.empty()) return {};
   const bool stereo = a.depth_from == "stereo";
   if (stereo && a.depth_size) {
-    return failOn("--depth-size",
-                  {ErrorCode::InvalidArgument, 0, "two views give depth of their own size; leave it out"});
+    return failOn("--depth-size", {ErrorCode::InvalidArgument, 0,
+                                   "with --depth-from stereo the depth has the views' size; leave it out"});
   }
   if (!stereo && a.swap_eyes != SwapEyes::Auto) {
     return failOn("--swap-eyes", {ErrorCode::InvalidArgument, 0, "is for --depth-from stereo; leave it out"});

@@ -57,7 +57,8 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
 // CLI11 says that an argument "was not expected"; this names what was meant, too.
 void tellUnexpected(const CLI::App& program, const std::string& word) {
   const std::string option = word.substr(0, word.find('='));
-  log(LogLevel::Error, word.c_str(), "%s%s; see %s --help", word.starts_with('-') ? "no such option" : "one too many",
+  log(LogLevel::Error, word.c_str(), "%s%s; see %s --help",
+      word.starts_with('-') ? "no such option" : "is one argument too many",
       meant(option, optionsOf(*innermost(&program))).c_str(), commandOf(program).c_str());
 }
 

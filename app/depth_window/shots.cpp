@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vote of the sampled places, and the comparison of pictures.
+// Cuts, by a vote of the sampled places; repeated frames, by a comparison of all samples.
 #include "app/depth_window/shots.h"
 
 #include <algorithm>

@@ -33,7 +33,7 @@ constexpr const char* kUnitIsNearLow =
 constexpr const char* kUnitIsLuma =
     "calibration has unit=, by which codes are distances, but the depth is coded as a hue from near to far; "
     "give near and far instead of unit";
-constexpr const char* kTooManyBits = "calibration has more bits than the depth's samples; leave bits out";
+constexpr const char* kTooManyBits = "bits= is more than the depth's samples have; leave bits= out of the calibration";
 constexpr const char* kNoSuchCode =
     "calibration has a code (codes, invalid) that the depth's bits cannot hold; give one below 2^bits";
 constexpr std::uint32_t kDarkestKinect = 8;  // a ramp's black (no depth), with what coding adds

@@ -78,8 +78,9 @@ int rotationOf(const AVStream& stream) noexcept {
   const bool mirrored = static_cast<double>(m[0]) * m[4] < static_cast<double>(m[1]) * m[3];
   const double quarters = std::round(degrees / 90);
   if (!mirrored && std::abs(degrees - 90 * quarters) < 1) return (static_cast<int>(quarters) + 4) % 4;
-  log(LogLevel::Warning, "media", "track %d must be %s, which is not supported; convert the film to upright pictures",
-      stream.index, mirrored ? "mirrored" : "turned by an odd angle");
+  log(LogLevel::Warning, "media",
+      "track %d is to be shown %s, which is not supported; convert the film to upright pictures", stream.index,
+      mirrored ? "mirrored" : "turned by other than a multiple of 90 degrees");
   return 0;
 }
 

@@ -168,7 +168,7 @@ class PictureFileDecoder final : public VideoDecoder {
 
   void sayBeyond() {
     if (std::exchange(reading_->said_beyond, true)) return;
-    log(LogLevel::Warning, "media", "values beyond %g, the scale of the film's first picture, are read as that",
+    log(LogLevel::Warning, "media", "values beyond %g, the range of the film's first picture, are cut to it",
         kTop * std::abs(reading_->codes.valuePerCode()));
   }
 

@@ -200,7 +200,7 @@ class Inverse3 final : public HapticDevice {
     if (!session_.listened(answered, clock_.now() - measured_ <= kPatience))
       return fail(ErrorCode::Lost, "the Haply Inverse service stopped answering; restart it if it does not return");
     if (unknown_ >= kMostUnknown)
-      return fail(ErrorCode::Lost, "the Haply Inverse service answers too late to be felt; run it on this machine");
+      return fail(ErrorCode::Lost, "the Haply Inverse service answers too slowly for force; run it on this machine");
     return {};
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the maps, follows the film with it, and codes it as 4:2:0.
+// Opens the maps, moves what is painted along with the film, and makes 4:2:0 pictures of the result.
 #include "app/author/material/material_track.h"
 
 #include <algorithm>

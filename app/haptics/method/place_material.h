@@ -51,7 +51,7 @@ class MaterialReader {
 // that came in at a softer one more than it has put in: F = k d is a spring only while k stands still. So what the
 // spring stores stays the same when k changes, and the spring is shorter than the finger's depth d where it does not
 // suffice for k d^2/2; what a softer place stores less is kept for the next stiffer one. On the way from k1 to k2 > k1
-// the force rises by sqrt(k2/k1); after it, it grows by k2 for each mm.
+// the force rises by sqrt(k2/k1); from then on it grows by k2 for each mm.
 class PlaceSpring {
  public:
   // The share of `depth_mm`, from the finger to the spring's end, by which the spring is stretched, 0 to 1.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The charts lie in the page itself, in its colours: the page can be moved about alone, and read by day and by night.
+// The charts are SVG inside the page and use its colours: the page is one file, readable in light and in dark mode.
 #include "app/lab/chart/report.h"
 
 #include <algorithm>

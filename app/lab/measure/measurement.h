@@ -17,9 +17,9 @@ namespace relievo {
 struct MeasureOptions {
   std::string out;                       // a folder that is there
   bool quick = false;                    // fewer scenes, rounds and seconds: within a minute on two processors
-  Display* display = nullptr;            // closed, without a screen: for what is drawn
+  Display* display = nullptr;            // off screen, not opened yet; for measurements that draw
   std::vector<std::string> depth_films;  // real depth, for those who look at it too
-  PairReader::Backends backends;         // that open it
+  PairReader::Backends backends;         // to open depth_films with
   std::function<void(const std::string&)> tell = [](const std::string&) {};  // what it is at, in a few words
 };
 

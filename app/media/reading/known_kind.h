@@ -28,7 +28,7 @@ enum class SampleOrder : std::uint8_t {
 
 // Codes that are inversely proportional to the distance: mm / (offset - code) for a positive offset, else mm / code.
 struct InverseCodes {
-  double mm = 0;  // 0: the codes are none
+  double mm = 0;  // 0: the codes are not inverse
   double offset = 0;
 };
 

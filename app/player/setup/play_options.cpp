@@ -85,8 +85,8 @@ CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chos
   };
   const auto take = [option, second, &chosen](const std::vector<std::string>& given) {
     if (given.size() > (second != nullptr ? 2U : 1U)) {
-      throw WordFailure(
-          {option + (" " + given.back()), {ErrorCode::InvalidArgument, 0, "is one too many; see relievo play --help"}});
+      throw WordFailure({option + (" " + given.back()),
+                         {ErrorCode::InvalidArgument, 0, "is one device too many; see relievo play --help"}});
     }
     chosen = nameOf(given.front());
     if (given.size() > 1) *second = nameOf(given.back());

@@ -26,7 +26,7 @@ struct SoundSummary {
   std::uint64_t realigned = 0;  // times that it was started anew, since it was too far off
   std::uint64_t pictures = 0;   // that were shown to sound
   double max_offset_ms = 0, mean_offset_ms = 0;
-  double drift_ppm = 0;  // how much faster than the system's clock the film went at last
+  double drift_ppm = 0;  // at the end of the film: how much faster than the system's clock it ran
 };
 
 // The clock is felt as well as seen, so it never jumps: it is steered by at most MediaClock::kMostSteering. Where the

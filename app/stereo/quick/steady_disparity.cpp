@@ -15,7 +15,7 @@ constexpr std::uint8_t kMemory = 24;   // pictures
 constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
 constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
 constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
-constexpr int kPlainly = 2;            // levels a pixel by which the other surface must fit better
+constexpr int kPlainly = 2;            // gray levels a pixel by which the other surface must fit better to be taken
 
 bool isNear(float a, float b) noexcept {
   return std::abs(a - b) < kSurface;

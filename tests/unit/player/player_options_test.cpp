@@ -201,7 +201,7 @@ TEST(Options, SayWhatWasMeant) {
   expectRefused({"film.mkv", "--packing", "trakcs"}, "did you mean tracks?");
   expectRefused({"probe", "film.mkv", "--jsn"}, "--jsn: no such option; did you mean --json?");
   expectRefused({"prob", "film.mkv"}, "prob (probe?): is neither a file nor a command");
-  expectRefused({"devices", "calibrat"}, "calibrat: one too many");
+  expectRefused({"devices", "calibrat"}, "calibrat: is one argument too many");
 }
 
 TEST(Options, TakeEveryWordOfPlay) {
@@ -316,7 +316,7 @@ TEST(Options, TakeADeviceForEachOfTwoFingers) {
   EXPECT_EQ(one.haptic, "mock") << "none beside a device is one finger";
   EXPECT_EQ(one.second_haptic, "");
   expectRefused({"play", "film.mkv", "--haptic", "mock", "--haptic", "sim", "--haptic", "none"},
-                "--haptic none: is one too many");
+                "--haptic none: is one device too many");
   expectRefused({"play", "film.mkv", "--haptic", "mock", "--haptic", "hand"}, "no such haptic device");
 }
 
@@ -386,7 +386,7 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--fps", "0"}, "--fps: 0 is not between 0.01 and 10000");
   expectRefused({"play", "film.mkv", "--duration", "-1"}, "--duration -1: ");
   expectRefused({"play", "--films", "Videos", "--display", "offscreen"}, "--films: shows a list, and nobody sees it");
-  expectRefused({"probe", "one.mkv", "two.mkv"}, "two.mkv: one too many");
+  expectRefused({"probe", "one.mkv", "two.mkv"}, "two.mkv: is one argument too many");
 }
 
 // Each one that the help shows with a value: "  --fps F  ..".
