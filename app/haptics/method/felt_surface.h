@@ -17,10 +17,11 @@ namespace relievo {
 
 // Blocks counted per frame. A tick that has read more leaves optional work to later ticks.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
-// A frame has 80 around one place: 16 narrow ones, and 32 each, with their rims, of the two smooth levels. A tick that
-// has read more of them does not prepare the next one, which would read as many again. With a lower bound a finger that
-// moves would be prepared for too rarely: with 24, one of 40 fingers at an edge in noise fell off it 2.5 mm early.
-inline constexpr std::uint64_t kBlocksOfFrame = 80;
+// A frame has 16 narrow blocks around one place, and 32, with their rims, of a smooth level. A tick that has read that
+// many does not prepare the next one, which may read another 80 of three levels. With a lower bound too few ticks of a
+// finger that moves would be prepared: with 24, one of 40 fingers at an edge in noise fell off it 2.5 mm early, with 48
+// none.
+inline constexpr std::uint64_t kBlocksOfFrame = 48;
 
 // S = N + c(W - N): the narrow level N keeps edges, the smooth level W has little noise, and c is a soft clamp, so that
 // W can remove N's noise but cannot round an edge by more than `clamp_mm`. Away from edges S equals W. c is monotone,
@@ -50,9 +51,9 @@ class FeltSurface {
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
     return narrow_.grid().blocksRead() + smooth_.blocksRead();
   }
-  // More than kBlocksOfTick, or kBlocksOfFrame, since `moveTo`.
+  // More than kBlocksOfTick, or at least kBlocksOfFrame, since `moveTo`.
   [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
-  [[nodiscard]] bool hasReadAFrame() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfFrame; }
+  [[nodiscard]] bool hasReadAFrame() const RELIEVO_RT { return blocksRead() - read_before_ >= kBlocksOfFrame; }
 
   // `prepare` was for this moment and these frames.
   [[nodiscard]] bool asPrepared() const RELIEVO_RT { return as_prepared_; }
