@@ -151,7 +151,7 @@ void Player::begin(MonotonicTime now) {
 // A device that is not there, or has nothing to feel, is not spoken of.
 std::string Player::firstHint() const {
   const std::string help = config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, config_.held);
-  const std::string keys = help.empty() ? "" : help + ": all keys";
+  std::string keys = help.empty() ? "" : help + ": all keys";
   const bool has_device = touch_.waiting() || touch_.running();
   if (!has_device || !film_.info().has_depth) return keys;
   return (config_.mouse_touches ? "Press into the picture to feel it.  " : "Reach into the picture to feel it.  ") +
