@@ -115,6 +115,17 @@ bool isRotated(const CodeCount& count) {
   return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
 }
 
+// Below the distance stands the number of the person that is seen there, 1 to 6, in some of the pictures. Rotated codes
+// end otherwise than in 0 beyond 8.19 m alone, and there they begin again.
+bool hasPlayers(const CodeCount& count) {
+  constexpr double kBackground = 0.5, kLeast = 1e-3;
+  constexpr std::uint32_t kFarthest = 8 * 7500;
+  const CodeCount all = count.together();
+  const double background = all.remainders(8, 0);
+  return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 &&
+         reachOf(all, 1, kTop).high < kFarthest;
+}
+
 // Heights: the codes in use.
 DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   const CodeCount valid = count.without(holes);
@@ -238,6 +249,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   }
   if (isRawKinect(count)) return findKind("kinect-raw");
   if (isMeasured(count) && hasConfidence(depth)) return findKind("depth16");
+  if (isMeasured(count) && hasPlayers(count)) return findKind("kinect-players");
   if (isMeasured(count) && isRotated(count)) return findKind("sun");
   const std::uint32_t step = count.step();
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched

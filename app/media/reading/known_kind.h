@@ -23,7 +23,8 @@ enum class SampleOrder : std::uint8_t {
   BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
   EqualColors,   // of RGB of more than 8 bits: each component is the code
   FloatBytes,    // of RGBA in 8 bits: a float in metres, its bytes in blue, green, red and alpha; 250 codes a metre
-  Low13          // Android's DEPTH16: three bits of confidence above
+  Low13,         // Android's DEPTH16: three bits of confidence above
+  Upper13        // Kinect SDK 1: three bits of a player's number below
 };
 
 // Codes that are inversely proportional to the distance: mm / (offset - code) for a positive offset, else mm / code.

@@ -20,6 +20,7 @@ std::uint32_t swapped(std::uint32_t code) noexcept {
 }
 std::uint32_t ordered(std::uint32_t code, SampleOrder order) noexcept {
   if (order == SampleOrder::Low13) return code & 0x1fff;
+  if (order == SampleOrder::Upper13) return code >> 3;
   if (order == SampleOrder::RotatedLeft3) return (code >> 3 | code << 13) & kTop;
   return order == SampleOrder::Swapped ? swapped(code) : code;
 }

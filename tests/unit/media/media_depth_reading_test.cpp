@@ -83,6 +83,19 @@ TEST(DepthReading, SensorsCodesAreDistances) {
   expectTrue(inOrder(sun, SampleOrder::RotatedLeft3).value(), 1.01, "mm, rotated left by three bits");
 }
 
+// The ball is told apart as a person.
+TEST(DepthReading, AKinectsPlayersStandBelowItsDistances) {
+  const Frame players = picture(0, [](double mm) { return std::floor(mm) * 8 + (mm < 1400 ? 2 : 0); });
+  ASSERT_EQ(sensorKind(players, CodeCount(players)), findKind("kinect-players"));
+  expectTrue(inOrder(players, SampleOrder::Upper13).value(), 1.01, "mm above a player's number");
+  // Of SUN's, beyond 8.19 m the upper bits come round.
+  const Frame far = picture(0, [](double mm) {
+    const auto code = static_cast<std::uint32_t>(5 * mm);
+    return static_cast<double>((code << 3 | code >> 13) & 0xffff);
+  });
+  EXPECT_EQ(sensorKind(far, CodeCount(far)), findKind("sun"));
+}
+
 // The formula for a Kinect's raw disparities in depth_reading.cpp, inverted: code = 1092.5 - 351300/z.
 TEST(DepthReading, ElevenBitsWithAHoleOf2047AreTheDisparitiesOfAKinect) {
   const Frame raw = picture(2047, [](double mm) { return 1092.5 - 351300 / mm; });
