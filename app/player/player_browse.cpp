@@ -53,6 +53,7 @@ void Player::openBrowser(MonotonicTime now) {
   if (!browser_ || !apply(PlayerEvent::Browse)) return;
   browsed_ = true;
   screen_.text().forgetWarning();  // of the film that was played
+  screen_.text().hideKeys();       // likewise
   browser_->open(programme_.leftFilms(), now);
   screen_.announce({});
   screen_.text().setList(browser_->view());
@@ -64,6 +65,7 @@ void Player::closeBrowser() {
   if (!screen_.text().hasList()) return;
   browser_->close();
   screen_.text().setList(std::nullopt);
+  screen_.text().hideKeys();  // they are the list's
   mouse_.leaveList();
 }
 

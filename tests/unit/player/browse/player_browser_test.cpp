@@ -88,6 +88,16 @@ TEST_F(PlayerWithAList, BackReturnsToItAndTheFilmGoesOnWhereItWasLeft) {
   EXPECT_THAT(bench_.report.films, ElementsAre(videos() + "/a.mkv", videos() + "/a.mkv"));
 }
 
+// BACK would leave a page of keys before it leaves the film.
+TEST_F(PlayerWithAList, ItsPageOfKeysGoesWithIt) {
+  bench_.press(0.5, KEY_HELP);
+  bench_.press(1, KEY_OK);
+  bench_.press(2, KEY_BACK);
+  bench_.press(3, KEY_Q);
+  play();
+  EXPECT_EQ(bench_.states(), "boot idle browsing opening buffering playing idle browsing idle");
+}
+
 TEST_F(PlayerWithAList, NextAndPreviousPlayItsFilms) {
   bench_.press(1, KEY_OK);
   bench_.press(2, KEY_N);
