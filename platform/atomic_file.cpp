@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "platform/files/file_system_answer.h"
-#include "platform/litter.h"
+#include "platform/files/litter.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {

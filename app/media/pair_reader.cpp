@@ -6,7 +6,7 @@
 
 #include "app/media/depth_picture.h"
 #include "app/media/pairs/pair_film.h"
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 #include "platform/log.h"
 
 namespace relievo {

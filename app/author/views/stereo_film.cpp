@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 #include "app/stereo/stereo_survey.h"
 #include "platform/print.h"
 

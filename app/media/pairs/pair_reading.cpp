@@ -11,7 +11,7 @@
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
 #include "app/media/reading/picture_look.h"
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
 

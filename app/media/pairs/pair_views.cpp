@@ -6,7 +6,7 @@
 
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
 

@@ -7,7 +7,7 @@
 
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 #include "app/scene/height_field.h"
 #include "platform/print.h"
 

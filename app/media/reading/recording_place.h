@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/media/reading/known_kind.h"
-#include "app/media/reading/stereo_camera.h"
+#include "app/media/reading/stereo/stereo_camera.h"
 
 namespace relievo {
 

@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "platform/atomic_file.h"
-#include "platform/litter.h"
+#include "platform/files/litter.h"
 #include "platform/unique_fd.h"
 #include "tests/support/film/clip_maker.h"
 

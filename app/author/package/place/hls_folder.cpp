@@ -19,7 +19,7 @@
 #include "app/author/package/place/film_io.h"
 #include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
-#include "platform/litter.h"
+#include "platform/files/litter.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Temporary files: flock tells whether the process that made one is still running.
-#include "platform/litter.h"
+#include "platform/files/litter.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

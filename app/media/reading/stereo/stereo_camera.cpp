@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/reading/stereo_camera.h"
+#include "app/media/reading/stereo/stereo_camera.h"
 
 #include <algorithm>
 #include <cmath>

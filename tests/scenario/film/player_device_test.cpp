@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 
+#include "tests/scenario/film/player_scenario.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/scenario/player_scenario.h"
 
 namespace relievo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/reading/stereo_pair.h"
+#include "app/media/reading/stereo/stereo_pair.h"
 
 #include <algorithm>
 #include <cmath>

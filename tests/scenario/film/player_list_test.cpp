@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "tests/scenario/player_transport.h"
+#include "tests/scenario/film/player_transport.h"
 
 namespace relievo {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "app/player/film/resume.h"
-#include "tests/scenario/player_transport.h"
+#include "tests/scenario/film/player_transport.h"
 
 namespace relievo {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/scenario/film/player_scenario.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/scenario/player_scenario.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {

@@ -6,8 +6,8 @@
 
 #include <string>
 
+#include "tests/scenario/film/player_scenario.h"
 #include "tests/scenario/player_bench.h"
-#include "tests/scenario/player_scenario.h"
 
 namespace relievo {
 namespace {

@@ -5,7 +5,7 @@
 #include "app/media/pair_reader.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/unit/media/pairs_read.h"
+#include "tests/unit/media/pairs/pairs_read.h"
 
 namespace relievo {
 namespace {
