@@ -27,7 +27,6 @@ using nlohmann::json;
 using testing::StartsWith;
 
 constexpr int kWidth = 320, kHeight = 240;
-constexpr int kPages = 6;                 // of keys, in a window of this size
 constexpr double kRow = kHeight / 720.0;  // of the display over the picture
 
 // Gray, as far as the eye sees; its depth is that of a wall in the middle.
