@@ -12,76 +12,20 @@
 #include <cstring>
 #include <stdexcept>
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-}
+#include "tests/support/device/codec_library.h"
 
 namespace relievo::test {
 namespace {
 
 constexpr std::size_t kMemoryBytes = std::size_t{1} << 30;  // of a sparse file
 constexpr std::uint32_t kMostBuffers = 32;
-constexpr std::uint32_t kPage = 4096;
 
-std::uint32_t wholePages(std::uint32_t bytes) {
-  return (bytes + kPage - 1) / kPage * kPage;
-}
 std::uint64_t tagOf(const v4l2_buffer& buffer) {
   return static_cast<std::uint64_t>(buffer.timestamp.tv_sec) * 1'000'000 +
          static_cast<std::uint64_t>(buffer.timestamp.tv_usec);
 }
 
 }  // namespace
-
-struct UmockdevCodec::Library {
-  AVCodecContext* context = nullptr;
-  std::deque<AVFrame*> pictures;
-
-  explicit Library(std::uint32_t fourcc) {
-    const AVCodec* const codec =
-        avcodec_find_decoder(fourcc == V4L2_PIX_FMT_HEVC ? AV_CODEC_ID_HEVC : AV_CODEC_ID_H264);
-    context = avcodec_alloc_context3(codec);
-    context->thread_count = 1;
-    if (avcodec_open2(context, codec, nullptr) < 0) throw std::runtime_error("FFmpeg has no decoder");
-  }
-  ~Library() {
-    forget();
-    avcodec_free_context(&context);
-  }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-
-  bool feed(const std::uint8_t* data, std::uint32_t bytes, std::uint64_t tag) {
-    AVPacket* packet = av_packet_alloc();
-    av_new_packet(packet, static_cast<int>(bytes));
-    std::memcpy(packet->data, data, bytes);
-    packet->pts = static_cast<std::int64_t>(tag);
-    const bool good = avcodec_send_packet(context, packet) >= 0;
-    av_packet_free(&packet);
-    receive();
-    return good;
-  }
-  void receive() {
-    for (;;) {
-      AVFrame* picture = av_frame_alloc();
-      if (avcodec_receive_frame(context, picture) < 0) return av_frame_free(&picture);
-      pictures.push_back(picture);
-    }
-  }
-  void drain() {
-    avcodec_send_packet(context, nullptr);
-    receive();
-    avcodec_flush_buffers(context);
-  }
-  void pop() {
-    av_frame_free(&pictures.front());
-    pictures.pop_front();
-  }
-  void forget() {
-    while (!pictures.empty()) pop();
-    avcodec_flush_buffers(context);
-  }
-};
 
 // The node is a plain file, so that its memory can be mapped.
 UmockdevCodec::UmockdevCodec(UMockdevTestbed* bed, int number, CodecKind kind)
@@ -344,7 +288,7 @@ int UmockdevCodec::makeBuffers(v4l2_requestbuffers& request) {
   given_ = 0;
   hung_ = changing_ = false;
   events_ = 0;
-  library_ = std::make_unique<Library>(kind_.packets);
+  library_ = std::make_unique<CodecLibrary>(kind_.packets);
   return 0;
 }
 
@@ -366,95 +310,6 @@ int UmockdevCodec::stop(bool packets) {
     pictures_done_.clear();
   }
   return 0;
-}
-
-void UmockdevCodec::work() {
-  if (!library_ || !packets_run_) return;
-  while (!hung_ && (deliver() || decodeOne())) {
-    if (hangs_left_ == 0 || given_ < hang_after_) continue;
-    --hangs_left_;
-    hung_ = true;
-  }
-  if (!hung_) finishDrain();
-}
-
-// False without a picture or without a free buffer for it.
-bool UmockdevCodec::deliver() {
-  if (library_->pictures.empty()) return false;
-  const AVFrame& picture = *library_->pictures.front();
-  const Size size{static_cast<std::uint32_t>(picture.width), static_cast<std::uint32_t>(picture.height)};
-  if (size != size_ && !changing_) announce(size);
-  if (changing_) giveLast();
-  if (changing_ || !pictures_run_ || empty_.empty() || last_given_) return false;
-  const std::uint32_t index = empty_.front();
-  empty_.pop_front();
-  fill(index);
-  const bool damaged = (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
-  pictures_done_.push_back({index, kind_.planes ? lumaBytes() : lumaBytes() * 3 / 2,
-                            damaged ? static_cast<std::uint32_t>(V4L2_BUF_FLAG_ERROR) : 0U,
-                            static_cast<std::uint64_t>(picture.pts)});
-  library_->pop();
-  ++given_;
-  ++pictures_;
-  return true;
-}
-
-void UmockdevCodec::announce(const Size& size) {
-  size_ = size;
-  ++events_;
-  changing_ = true;
-}
-
-// An empty last buffer, as with most drivers.
-void UmockdevCodec::giveLast() {
-  if (!pictures_run_ || last_given_ || empty_.empty()) return;
-  last_given_ = true;
-  pictures_done_.push_back({empty_.front(), 0, V4L2_BUF_FLAG_LAST, 0});
-  empty_.pop_front();
-}
-
-// Only once the earlier pictures are out.
-bool UmockdevCodec::decodeOne() {
-  if (!library_->pictures.empty() || packets_.empty() || last_given_) return false;
-  const Packet packet = packets_.front();
-  packets_.pop_front();
-  const bool good = library_->feed(memory_ + packet_offsets_[packet.index], packet.bytes, packet.tag);
-  const AVCodecContext& known = *library_->context;
-  if (known.width > 0 && size_ == kUntold) {
-    announce({static_cast<std::uint32_t>(known.width), static_cast<std::uint32_t>(known.height)});
-  }
-  packets_done_.push_back({packet.index, 0, good ? 0U : static_cast<std::uint32_t>(V4L2_BUF_FLAG_ERROR), packet.tag});
-  return true;
-}
-
-void UmockdevCodec::finishDrain() {
-  if (!draining_ || changing_ || !packets_.empty() || !library_->pictures.empty()) return;
-  if (!drained_) {
-    drained_ = true;
-    library_->drain();
-    return work();
-  }
-  giveLast();
-}
-
-void UmockdevCodec::fill(std::uint32_t index) {
-  const AVFrame& picture = *library_->pictures.front();
-  std::uint8_t* const luma = memory_ + picture_offsets_[index];
-  std::uint8_t* const chroma = luma + (kind_.planes ? wholePages(lumaBytes()) : lumaBytes());
-  for (int r = 0; r < picture.height; ++r) {
-    std::memcpy(luma + std::size_t{stride()} * static_cast<std::size_t>(r), picture.data[0] + r * picture.linesize[0],
-                static_cast<std::size_t>(picture.width));
-  }
-  const bool apart = kind_.pictures == V4L2_PIX_FMT_YUV420;
-  for (int i = 1; i <= 2; ++i) {
-    for (int r = 0; r < (picture.height + 1) / 2; ++r) {
-      const std::uint8_t* const from = picture.data[i] + r * picture.linesize[i];
-      std::uint8_t* const to =
-          apart ? chroma + (i - 1) * (lumaBytes() / 4) + std::size_t{stride() / 2} * static_cast<std::size_t>(r)
-                : chroma + (i - 1) + std::size_t{stride()} * static_cast<std::size_t>(r);
-      for (int c = 0; c < (picture.width + 1) / 2; ++c) to[apart ? c : 2 * c] = from[c];
-    }
-  }
 }
 
 }  // namespace relievo::test

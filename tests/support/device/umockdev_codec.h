@@ -29,6 +29,8 @@ struct CodecKind {
   bool main_profile_only = false;              // of H.264
 };
 
+struct CodecLibrary;
+
 class UmockdevCodec {
  public:
   // Creates the node /dev/videoN.
@@ -51,7 +53,6 @@ class UmockdevCodec {
   [[nodiscard]] int unknownRequests();
 
  private:
-  struct Library;
   struct Size {
     std::uint32_t width = 0, height = 0;
     bool operator==(const Size&) const = default;
@@ -65,6 +66,8 @@ class UmockdevCodec {
     std::uint32_t index, bytes;
     std::uint64_t tag;
   };
+  static constexpr std::uint32_t kPage = 4096;
+  static constexpr std::uint32_t wholePages(std::uint32_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
   bool answer(UMockdevIoctlClient* client);
   [[nodiscard]] int answerTo(unsigned long request, UMockdevIoctlData* data);
   [[nodiscard]] int answerToBuffers(unsigned long request, UMockdevIoctlData* data);
@@ -90,7 +93,7 @@ class UmockdevCodec {
   const CodecKind kind_;
 
   std::mutex lock_;  // guards all members below
-  std::unique_ptr<Library> library_;
+  std::unique_ptr<CodecLibrary> library_;
   std::uint8_t* memory_ = nullptr;
   std::uint32_t next_offset_ = 0;
   std::uint32_t packet_bytes_ = 0;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The FFmpeg decoder: samples exact to the bit, references to pictures, colour signalling, damage.
-#include <gmock/gmock.h>
+// The FFmpeg decoder: references to pictures, colour signalling, damage, seeks.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <set>
@@ -11,11 +9,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/picture.h"
 #include "tests/support/film/clip_maker.h"
-
-extern "C" {
-#include <libavutil/pixdesc.h>
-#include <libswscale/swscale.h>
-}
+#include "tests/unit/drivers/decoded_clip.h"
 
 namespace relievo {
 namespace {
@@ -24,197 +18,6 @@ using test::ClipTrack;
 using test::makeClip;
 using test::sampleAt;
 using test::TemporaryFolder;
-
-// Every code of 16 bits, without pattern (a multiplicative hash, its upper half).
-std::uint32_t scattered(int component, int column, int row, int frame) {
-  const auto n = static_cast<std::uint32_t>(column + 1000 * row + 1'000'000 * frame + 7 * component);
-  return (n * 2654435761u) >> 16;
-}
-
-struct Clip {
-  std::unique_ptr<MediaSource> source = makeFfmpegSource();
-  std::unique_ptr<VideoDecoder> decoder = makeFfmpegDecoder();
-  std::vector<Packet> packets;
-
-  // Of the one video stream.
-  explicit Clip(const std::string& path) {
-    EXPECT_TRUE(source->open(path).has_value());
-    while (auto packet = source->read().value()) packets.push_back(*packet);
-  }
-  [[nodiscard]] const StreamInfo& stream() const { return source->streams().at(0); }
-
-  std::vector<Frame> decode() {
-    EXPECT_TRUE(decoder->open(stream()).has_value());
-    return decodeOpen();
-  }
-  std::vector<Frame> decodeOpen() {
-    std::vector<Frame> frames;
-    const auto receiveAll = [&] {
-      while (auto frame = decoder->receive().value()) frames.push_back(*frame);
-    };
-    for (const Packet& packet : packets) {
-      while (decoder->feed(packet).value() == Feed::Full) receiveAll();
-    }
-    EXPECT_TRUE(decoder->drain().has_value());
-    receiveAll();
-    EXPECT_EQ(decoder->state(), VideoDecoder::State::Ended);
-    return frames;
-  }
-};
-
-int chromaColumns(const Frame& frame, int component) {
-  if (frame.model != ColorModel::Yuv || component == 0) return frame.width;
-  return (frame.width + (1 << frame.chroma_shift_x) - 1) >> frame.chroma_shift_x;
-}
-int chromaRows(const Frame& frame, int component) {
-  if (frame.model != ColorModel::Yuv || component == 0) return frame.height;
-  return (frame.height + (1 << frame.chroma_shift_y) - 1) >> frame.chroma_shift_y;
-}
-
-// The number of samples that differ from what was written into frame k.
-int wrongSamples(const Frame& frame, int k) {
-  int wrong = 0;
-  const int components = frame.model == ColorModel::Gray ? 1 : 3;
-  for (int i = 0; i < components; ++i) {
-    const std::uint32_t mask = (1u << frame.components[static_cast<std::size_t>(i)].bits) - 1;
-    for (int r = 0; r < chromaRows(frame, i); ++r) {
-      for (int c = 0; c < chromaColumns(frame, i); ++c) {
-        if (sampleAt(frame, i, c, r) != (scattered(i, c, r, k) & mask)) ++wrong;
-      }
-    }
-  }
-  return wrong;
-}
-
-struct Format {
-  const char* codec;
-  const char* pix_fmt;
-  const char* file;
-  ColorModel model;
-  int bits;
-};
-void PrintTo(const Format& format, std::ostream* out) {
-  *out << format.codec << " " << format.pix_fmt;
-}
-
-class ExactFormats : public testing::TestWithParam<Format> {};
-
-TEST_P(ExactFormats, EveryCodeComesBackAsItWasWritten) {
-  const Format& format = GetParam();
-  TemporaryFolder folder;
-  const std::string path = folder / format.file;
-  const int frames = std::strchr(format.file, '%') == nullptr && std::strstr(format.file, ".mkv") == nullptr ? 1 : 5;
-  makeClip(path, {ClipTrack{.codec = format.codec,
-                            .pix_fmt = format.pix_fmt,
-                            .width = 67,
-                            .height = 41,
-                            .frames = frames,
-                            .sample = scattered}});
-  Clip clip(path);
-  const auto read = clip.decode();
-  ASSERT_EQ(read.size(), static_cast<std::size_t>(frames));
-  for (int k = 0; k < frames; ++k) {
-    const Frame& frame = read[static_cast<std::size_t>(k)];
-    EXPECT_EQ(frame.width, 67);
-    EXPECT_EQ(frame.height, 41);
-    EXPECT_EQ(frame.model, format.model);
-    EXPECT_EQ(frame.components[0].bits, format.bits);
-    EXPECT_EQ(wrongSamples(frame, k), 0) << "frame " << k;
-  }
-}
-
-// The last four are big endian inside the decoder: converted, and exact all the same.
-INSTANTIATE_TEST_SUITE_P(Ffmpeg, ExactFormats,
-                         testing::Values(Format{"ffv1", "gray", "a.mkv", ColorModel::Gray, 8},
-                                         Format{"ffv1", "gray10le", "a.mkv", ColorModel::Gray, 10},
-                                         Format{"ffv1", "gray12le", "a.mkv", ColorModel::Gray, 12},
-                                         Format{"ffv1", "gray16le", "a.mkv", ColorModel::Gray, 16},
-                                         Format{"ffv1", "yuv420p", "a.mkv", ColorModel::Yuv, 8},
-                                         Format{"ffv1", "yuv422p10le", "a.mkv", ColorModel::Yuv, 10},
-                                         Format{"ffv1", "yuv444p16le", "a.mkv", ColorModel::Yuv, 16},
-                                         Format{"ffv1", "bgr0", "a.mkv", ColorModel::Rgb, 8},
-                                         Format{"ffv1", "gbrp12le", "a.mkv", ColorModel::Rgb, 12},
-                                         Format{"png", "rgb24", "a.png", ColorModel::Rgb, 8},
-                                         Format{"png", "gray", "%02d.png", ColorModel::Gray, 8},
-                                         Format{"tiff", "gray16le", "a.tiff", ColorModel::Gray, 16},
-                                         Format{"png", "gray16be", "a.png", ColorModel::Gray, 16},
-                                         Format{"png", "gray16be", "%02d.png", ColorModel::Gray, 16},
-                                         Format{"png", "ya16be", "a.png", ColorModel::Gray, 16},
-                                         Format{"png", "rgb48be", "a.png", ColorModel::Rgb, 16}));
-
-TEST(FfmpegPixelFormats, EachCanBeReadInPlaceOrConverted) {
-  int in_place = 0;
-  for (const AVPixFmtDescriptor* d = av_pix_fmt_desc_next(nullptr); d != nullptr; d = av_pix_fmt_desc_next(d)) {
-    const AVPixelFormat format = av_pix_fmt_desc_get_id(d);
-    if ((d->flags & AV_PIX_FMT_FLAG_HWACCEL) != 0) {
-      EXPECT_FALSE(ffmpeg::describable(format)) << d->name;
-      continue;
-    }
-    if (ffmpeg::describable(format)) {
-      ++in_place;
-      continue;
-    }
-    const auto nearest = static_cast<AVPixelFormat>(ffmpeg::nearestDescribable(format));
-    EXPECT_TRUE(ffmpeg::describable(nearest)) << d->name;
-    EXPECT_NE(sws_isSupportedOutput(nearest), 0) << d->name;
-  }
-  EXPECT_GT(in_place, 80);
-}
-
-TEST(FfmpegPixelFormats, LayoutsThatAFrameCannotSayAreNotTakenForOnesThatItCan) {
-  for (const char* name : {"pal8", "monob", "monow", "gray16be", "yuv420p10be", "grayf32le", "gbrpf32le", "bayer_rggb8",
-                           "xyz12le", "uyyvyy411", "rgb565le", "rgb8", "x2rgb10le"}) {
-    EXPECT_FALSE(ffmpeg::describable(av_get_pix_fmt(name))) << name;
-  }
-  for (const char* name : {"gray", "gray9le", "gray16le", "ya8", "ya16le", "yuvj420p", "nv12", "nv21", "p010le",
-                           "yuyv422", "uyvy422", "rgb0", "bgra", "rgba64le", "gbrp10le", "yuva444p16le"}) {
-    EXPECT_TRUE(ffmpeg::describable(av_get_pix_fmt(name))) << name;
-  }
-}
-
-TEST(FfmpegPixelFormats, ConversionKeepsTheFinestOfWhatIsThere) {
-  const auto nearest = [](const char* name) {
-    return std::string(
-        av_get_pix_fmt_name(static_cast<AVPixelFormat>(ffmpeg::nearestDescribable(av_get_pix_fmt(name)))));
-  };
-  EXPECT_EQ(nearest("gray12be"), "gray12le");
-  EXPECT_EQ(nearest("yuv420p10be"), "yuv420p10le");
-  EXPECT_EQ(nearest("grayf32le"), "gray16le");
-  EXPECT_EQ(nearest("monob"), "gray");
-  EXPECT_EQ(nearest("pal8"), "rgb24");
-  EXPECT_EQ(nearest("rgb565le"), "rgb24");
-  EXPECT_EQ(nearest("bayer_rggb8"), "rgb24");
-  EXPECT_EQ(nearest("uyyvyy411"), "yuv420p");
-}
-
-Frame frameOfFormat(const char* name) {
-  ffmpeg::FramePtr picture(av_frame_alloc());
-  picture->format = av_get_pix_fmt(name);
-  picture->width = picture->height = 16;
-  EXPECT_EQ(av_frame_get_buffer(picture.get(), 0), 0) << name;
-  return ffmpeg::frameOf(std::move(picture), {0, 1});
-}
-
-TEST(FfmpegPixelFormats, ChromaSubsamplingIsTold) {
-  const auto shifts = [](const char* name) {
-    const Frame frame = frameOfFormat(name);
-    return std::pair{int{frame.chroma_shift_x}, int{frame.chroma_shift_y}};
-  };
-  EXPECT_EQ(shifts("yuv420p"), (std::pair{1, 1}));
-  EXPECT_EQ(shifts("yuv422p"), (std::pair{1, 0}));
-  EXPECT_EQ(shifts("yuv440p"), (std::pair{0, 1}));
-  EXPECT_EQ(shifts("yuv410p"), (std::pair{2, 2}));
-  EXPECT_EQ(shifts("nv12"), (std::pair{1, 1}));
-  EXPECT_EQ(shifts("rgb24"), (std::pair{0, 0}));
-}
-
-TEST(FfmpegPixelFormats, TheFormatItselfMayMeanFullRange) {
-  EXPECT_EQ(frameOfFormat("yuvj420p").range, ColorRange::Full);
-  EXPECT_EQ(frameOfFormat("yuvj444p").range, ColorRange::Full);
-  EXPECT_EQ(frameOfFormat("yuv420p").range, ColorRange::Unspecified);
-  EXPECT_EQ(frameOfFormat("gray12le").range, ColorRange::Full);
-  EXPECT_EQ(frameOfFormat("bgr0").range, ColorRange::Full);
-}
 
 TEST(FfmpegDecoder, PicturesAreTheDecodersOwnMemory) {
   TemporaryFolder folder;

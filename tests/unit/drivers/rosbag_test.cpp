@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags that the test writes itself: RealSense's layout and ROS's own, every packing, cut off, without an index.
-#include "drivers/rosbag/rosbag.h"
-
+// Bags that the test writes itself: ROS's own layout, every packing, cut off, without an index.
 #include <gtest/gtest.h>
 
-#include <bit>
-#include <cmath>
 #include <fstream>
 
-#include "app/media/registration/registration.h"
-#include "tests/support/film/clip_maker.h"
+#include "drivers/rosbag/rosbag.h"
 #include "tests/support/film/recording/bag_writer.h"
 #include "tests/support/film/recording/recorded_frames.h"
+#include "tests/unit/drivers/rosbag_films.h"
 
 namespace relievo {
 namespace {
@@ -20,61 +16,6 @@ using namespace std::chrono_literals;
 using test::BagImage;
 using test::BagWriter;
 using test::framesOf;
-
-constexpr std::uint32_t kCols = 24, kRows = 16;
-constexpr int kPictures = 12;
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kFirstStamp = 1'600'000'000'123'456'789;
-constexpr std::int64_t kPeriod = 33'366'700;  // no whole number of ms
-
-// Falls to the right and downwards; a hole at the top left, another code of a hole beside it.
-std::uint16_t codeAtSample(std::uint32_t c, std::uint32_t r, int picture) {
-  if (c == 0 && r == 0) return 0;
-  if (c == 1 && r == 0) return 65535;
-  return static_cast<std::uint16_t>(1000 + 20 * r + c + 3 * static_cast<std::uint32_t>(picture));
-}
-
-struct Layout {
-  bool big_endian = false;
-  std::uint32_t padding = 0;  // behind each row
-};
-std::string depthData(int picture, const Layout& layout = {}) {
-  std::string data;
-  for (std::uint32_t r = 0; r < kRows; ++r) {
-    for (std::uint32_t c = 0; c < kCols; ++c) {
-      const std::uint16_t code = codeAtSample(c, r, picture);
-      const std::uint16_t stored = layout.big_endian ? std::byteswap(code) : code;
-      data.append(reinterpret_cast<const char*>(&stored), sizeof stored);
-    }
-    data.append(layout.padding, '\x55');
-  }
-  return data;
-}
-BagImage depthImage(int picture, const Layout& layout = {}) {
-  return {.stamp_ns = kFirstStamp + picture * kPeriod,
-          .cols = kCols,
-          .rows = kRows,
-          .step = 2 * kCols + layout.padding,
-          .encoding = "16UC1",
-          .big_endian = layout.big_endian,
-          .data = depthData(picture, layout)};
-}
-// Red at the top left, blue elsewhere.
-BagImage colorImage(int picture, const std::string& encoding = "rgb8") {
-  std::string data;
-  for (std::uint32_t i = 0; i < kCols * kRows; ++i) {
-    const bool red = i < 4;
-    data += encoding == "rgb8" ? (red ? "\xff" : std::string(1, '\0')) : (red ? std::string(1, '\0') : "\xff");
-    data += std::string(1, '\0');
-    data += encoding == "rgb8" ? (red ? std::string(1, '\0') : "\xff") : (red ? "\xff" : std::string(1, '\0'));
-  }
-  return {.stamp_ns = kFirstStamp + picture * kPeriod + 5 * kMs,
-          .cols = kCols,
-          .rows = kRows,
-          .step = 3 * kCols,
-          .encoding = encoding,
-          .data = data};
-}
 
 struct RosTopics {
   std::string color = "/camera/color/image_raw", depth = "/camera/depth/image_raw";
@@ -95,48 +36,6 @@ std::string rosBag(const std::string& compression = "none", bool indexed = true,
     if (i % 3 == 2) bag.endChunk();
   }
   return bag.finish(indexed);
-}
-
-class RosbagSource : public testing::Test {
- protected:
-  std::string save(const std::string& bytes) {
-    const std::string path = folder_ / ("film" + std::to_string(saved_++) + ".bag");
-    std::ofstream(path, std::ios::binary) << bytes;
-    return path;
-  }
-  std::unique_ptr<MediaSource> open(const std::string& bytes) {
-    auto source = makeRosbagSource();
-    const auto opened = source->open(save(bytes));
-    EXPECT_TRUE(opened) << opened.error().message;
-    return source;
-  }
-  Result<void> openingOf(const std::string& bytes) { return makeRosbagSource()->open(save(bytes)); }
-  test::TemporaryFolder folder_;
-  int saved_ = 0;
-};
-
-const StreamInfo* streamOf(const MediaSource& source, const std::string& title) {
-  for (const StreamInfo& stream : source.streams()) {
-    if (stream.tags.at("TITLE") == title) return &stream;
-  }
-  return nullptr;
-}
-
-std::uint32_t sample(const Frame& frame, std::uint32_t c, std::uint32_t r, int component = 0) {
-  return test::sampleAt(frame, component, static_cast<int>(c), static_cast<int>(r));
-}
-
-void expectDepth(const std::vector<Frame>& frames, int first = 0, int count = kPictures) {
-  ASSERT_EQ(frames.size(), static_cast<std::size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const Frame& frame = frames[static_cast<std::size_t>(i)];
-    EXPECT_EQ(frame.pts, MediaTime(Duration((first + i) * kPeriod))) << "exact";
-    ASSERT_EQ(frame.width, static_cast<int>(kCols));
-    ASSERT_EQ(frame.height, static_cast<int>(kRows));
-    for (std::uint32_t r = 0; r < kRows; ++r) {
-      for (std::uint32_t c = 0; c < kCols; ++c) ASSERT_EQ(sample(frame, c, r), codeAtSample(c, r, first + i));
-    }
-  }
 }
 
 struct Variant {
@@ -242,153 +141,6 @@ TEST_F(RosbagSource, FloatsAreMetres) {
   EXPECT_EQ(sample(frames[0], 1, 0), 0u);
   EXPECT_NEAR(value * sample(frames[0], 0, 1), 2.2504, 1e-3);
   EXPECT_EQ(sample(frames[0], 1, 1), 0u);
-}
-
-// RealSense's layout: mono16 is depth, 16UC1 and 8UC1 are infrared, and stamps may come from two clocks.
-std::string realSenseBag(std::int64_t color_clock_ns, float unit_m) {
-  BagWriter bag("lz4");
-  const std::string device = "/device_0/sensor_0/";
-  const auto unit = bag.connect(device + "option/Depth_Units/value", "std_msgs/Float32");
-  const auto infrared = bag.connect(device + "Infrared_1/image/data", "sensor_msgs/Image");
-  const auto depth = bag.connect(device + "Depth_0/image/data", "sensor_msgs/Image");
-  const auto color = bag.connect("/device_0/sensor_1/Color_0/image/data", "sensor_msgs/Image");
-  bag.write(unit, 0, test::ByteWriter().add(0.0001F).bytes());
-  for (int i = 0; i < kPictures; ++i) {
-    BagImage z = depthImage(i), light = depthImage(i), picture = colorImage(i, "bgr8");
-    z.encoding = "mono16";
-    z.unit_m = unit_m;
-    light.encoding = "16UC1";
-    picture.stamp_ns += color_clock_ns;
-    const std::int64_t recorded = 1000 * kMs + i * 33 * kMs;  // since the device was started
-    bag.write(infrared, recorded, test::bagImage(light));
-    bag.write(depth, recorded, test::bagImage(z));
-    bag.write(color, recorded + 4 * kMs, test::bagImage(picture));
-  }
-  return bag.finish();
-}
-
-TEST_F(RosbagSource, RealSensesInfraredIsNotDepth) {
-  const auto source = open(realSenseBag(0, 0.00025F));
-  EXPECT_EQ(streamOf(*source, "/device_0/sensor_0/Infrared_1/image/data")->kind, StreamKind::Other);
-  EXPECT_EQ(streamOf(*source, "/device_0/sensor_1/Color_0/image/data")->kind, StreamKind::Video);
-  const StreamInfo depth = *streamOf(*source, "/device_0/sensor_0/Depth_0/image/data");
-  EXPECT_EQ(depth.kind, StreamKind::Video);
-  EXPECT_EQ(depth.tags.at("DEPTH_UNIT"), "0.250000") << "the picture's own unit";
-  expectDepth(framesOf(*source, depth));
-}
-
-TEST_F(RosbagSource, RealSensesOptionIsTheUnitOfOldRecordings) {
-  const auto source = open(realSenseBag(0, 0));
-  const StreamInfo depth = *streamOf(*source, "/device_0/sensor_0/Depth_0/image/data");
-  EXPECT_EQ(depth.tags.at("DEPTH_UNIT"), "0.100000");
-}
-
-TEST_F(RosbagSource, StampsOfTwoClocksGiveWayToTheTimesOfRecording) {
-  const auto source = open(realSenseBag(3600 * 1000 * kMs, 0.001F));
-  const auto frames = framesOf(*source, StreamInfo(*streamOf(*source, "/device_0/sensor_0/Depth_0/image/data")));
-  ASSERT_EQ(frames.size(), static_cast<std::size_t>(kPictures));
-  for (int i = 0; i < kPictures; ++i) EXPECT_EQ(frames[static_cast<std::size_t>(i)].pts, MediaTime(i * 33ms));
-}
-
-constexpr double kHalf = 0.70710678118654752;  // sine and cosine of 45 degrees
-constexpr std::array<double, 4> kUpright{0, 0, 0, 1}, kQuarterTurn{0, 0, kHalf, kHalf};
-
-const test::BagCamera kDepthCamera{
-    .cols = kCols, .rows = kRows, .focal_x = 30, .focal_y = 31, .center_x = 11, .center_y = 8};
-test::BagCamera colorCamera(const std::string& model) {
-  return {.cols = 2 * kCols,
-          .rows = 2 * kRows,
-          .focal_x = 60,
-          .focal_y = 61,
-          .center_x = 23,
-          .center_y = 16,
-          .model = model,
-          .distortion = {0.1, -0.2, 0.001, 0.002, 0.03}};
-}
-
-// Points of a reference go to the depth camera by 10 mm, to the colour camera by a quarter turn and (50, 20, 0) mm:
-// from depth to colour by the turn and (50, 20, 0) - turned (10, 0, 0).
-TEST_F(RosbagSource, RealSensesCamerasRegisterTheDepth) {
-  for (const char* const reference : {"0", "1"}) {
-    BagWriter bag;
-    const std::string depth = "/device_0/sensor_0/Depth_0", color = "/device_0/sensor_1/Color_0";
-    BagImage z = depthImage(0);
-    z.encoding = "mono16";
-    z.unit_m = 0.0005F;
-    bag.write(bag.connect(depth + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(z));
-    bag.write(bag.connect(color + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(colorImage(0)));
-    bag.write(bag.connect(depth + "/info/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
-    bag.write(bag.connect(color + "/info/camera_info", "sensor_msgs/CameraInfo"), 1,
-              test::bagCameraInfo(colorCamera("Inverse Brown Conrady")));
-    bag.write(bag.connect(depth + "/tf/0", "geometry_msgs/Transform"), 1, test::bagTransform({0.01, 0, 0}, kUpright));
-    bag.write(bag.connect(color + "/tf/" + reference, "geometry_msgs/Transform"), 1,
-              test::bagTransform({0.05, 0.02, 0}, kQuarterTurn));
-    const auto source = open(bag.finish());
-    const auto& tags = streamOf(*source, depth + "/image/data")->tags;
-    const bool related = *reference == '0';
-    ASSERT_EQ(tags.contains("DEPTH_REGISTRATION"), related) << "each camera's own reference relates nothing";
-    if (!related) continue;
-    const auto read = parseRegistration(tags.at("DEPTH_REGISTRATION"));
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->depth.cols, kCols);
-    EXPECT_EQ(read->depth.focal_y, 31);
-    EXPECT_EQ(read->color.center_x, 23);
-    EXPECT_EQ(read->color.distortion, (Lens::Coefficients{0.1, -0.2, 0.001, 0.002, 0.03, 0, 0, 0}));
-    EXPECT_EQ(read->unit_mm, 0.5);
-    EXPECT_NEAR(read->rotation[1], -1, 1e-9);
-    EXPECT_NEAR(read->rotation[3], 1, 1e-9);
-    EXPECT_NEAR(read->translation_mm[0], 50, 1e-6);
-    EXPECT_NEAR(read->translation_mm[1], 10, 1e-6);
-  }
-}
-
-// Both cameras hang on a base: the depth camera 100 mm to the right, the colour camera there and 30 mm lower, with a
-// quarter turn.
-TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
-  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame) {
-    BagWriter bag;
-    BagImage z = depthImage(0), picture = colorImage(0);
-    z.frame = "depth_optical";
-    picture.frame = color_frame;
-    bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, test::bagImage(z));
-    bag.write(bag.connect("/cam/rgb/image_raw", "sensor_msgs/Image"), 1, test::bagImage(picture));
-    bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
-    bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(colorCamera(lens)));
-    const auto frames = bag.connect("/tf_static", "tf2_msgs/TFMessage");
-    bag.write(frames, 1, test::bagFrameMotion("base", "depth_optical", test::bagTransform({0.1, 0, 0}, kUpright)));
-    bag.write(frames, 1,
-              test::bagFrameMotion("base", "/color_optical", test::bagTransform({0.1, 0.03, 0}, kQuarterTurn)));
-    return streamOf(*open(bag.finish()), "/cam/depth/image_raw")->tags;
-  };
-  const auto tags = tagsOf("plumb_bob", "color_optical");
-  ASSERT_TRUE(tags.contains("DEPTH_REGISTRATION"));
-  const auto read = parseRegistration(tags.at("DEPTH_REGISTRATION"));
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_NEAR(read->rotation[1], 1, 1e-9);
-  EXPECT_NEAR(read->rotation[3], -1, 1e-9);
-  EXPECT_NEAR(read->translation_mm[0], -30, 1e-6);
-  EXPECT_NEAR(read->translation_mm[1], 0, 1e-6);
-  EXPECT_FALSE(tagsOf("equidistant", "color_optical").contains("DEPTH_REGISTRATION")) << "another lens model";
-  EXPECT_FALSE(tagsOf("plumb_bob", "elsewhere").contains("DEPTH_REGISTRATION"));
-  EXPECT_FALSE(tagsOf("plumb_bob", "depth_optical").contains("DEPTH_REGISTRATION")) << "in the colour's view already";
-}
-
-TEST_F(RosbagSource, OfTwoCamerasDepthAndColourAreOfTheSame) {
-  BagWriter bag;
-  const auto left_color = bag.connect("/left/rgb/image", "sensor_msgs/Image");
-  const auto right_color = bag.connect("/right/rgb/image", "sensor_msgs/Image");
-  const auto left_depth = bag.connect("/left/depth/image", "sensor_msgs/Image");
-  const auto right_depth = bag.connect("/right/depth/image", "sensor_msgs/Image");
-  for (int i = 0; i < kPictures; ++i) {
-    for (const auto color : {left_color, right_color}) bag.write(color, kFirstStamp, test::bagImage(colorImage(i)));
-    if (i > 2) bag.write(left_depth, kFirstStamp, test::bagImage(depthImage(i)));
-    bag.write(right_depth, kFirstStamp, test::bagImage(depthImage(i)));
-  }
-  const auto source = open(bag.finish());
-  for (const StreamInfo& stream : source->streams()) {
-    const bool right = stream.tags.at("TITLE").starts_with("/right");
-    EXPECT_EQ(stream.kind, right ? StreamKind::Video : StreamKind::Other) << stream.tags.at("TITLE");
-  }
 }
 
 TEST_F(RosbagSource, RefusesBagsWithoutPicturesAndOtherVersionsInOneLine) {

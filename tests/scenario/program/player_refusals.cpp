@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program refuses or cannot do, in one line and with its exit code.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenario/program/player_program.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/program.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::ClipTrack;
+using testing::HasSubstr;
+
+TEST_F(PlayerProgram, RefusesAnAddressThatReadsWhatItIsNotToReadInOneLine) {
+  expectOneLine(play("'concat:" + at("a.ts") + "|" + at("b.ts") + "'"), 1, "concat:");
+}
+
+TEST_F(PlayerProgram, SaysInOneLineWhatIsWrongWithASource) {
+  expectOneLine(play(at("missing.mkv")), 1, "missing.mkv");
+  std::ofstream(at("text.mkv")) << "Not a film at all, but a few words of text.\n";
+  expectOneLine(play(at("text.mkv")), 1, "text.mkv");
+  std::ofstream(at("empty.mkv")).flush();
+  expectOneLine(play(at("empty.mkv")), 1, "empty.mkv");
+  fs::create_directory(at("none"));
+  expectOneLine(play(at("none")), 1, at("none"));
+  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  expectOneLine(play(at("film.mkv") + " --depth " + at("missing.mkv")), 1, "missing.mkv");
+  expectOneLine(play(at("film.mkv") + " --depth " + at("text.mkv")), 1, "text.mkv");
+  expectOneLine(test::runProgram("relievo probe " + at("text.mkv"), at("")), 1, "text.mkv");
+}
+
+TEST_F(PlayerProgram, AFailureIsInTheReportAndLeavesNothingHalfDone) {
+  const auto result = play(at("missing.mkv") + " --report " + at("r.json") + " --record " + at("t.csv"));
+  expectOneLine(result, 1, "missing.mkv");
+  const json r = reportOf("r.json");
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "fault"}));
+  EXPECT_EQ(r["faults"].size(), 1u);
+  expectNothingLeft({"r.json"});
+}
+
+TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
+  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  const auto report = play(at("film.mkv") + " --report " + at("missing/r.json") + " --record " + at("t.csv"));
+  expectOneLine(report, 1, "missing/r.json");
+  const auto record = play(at("film.mkv") + " --report " + at("r.json") + " --record " + at("missing/t.csv"));
+  expectOneLine(record, 1, "missing/t.csv");
+  const auto capture = play(at("film.mkv"), "offscreen:" + at("missing/x.y4m"));
+  EXPECT_EQ(capture.exit_code, 1) << capture.err;
+  EXPECT_THAT(capture.err, HasSubstr("the capture file cannot be written"));
+  expectNothingLeft({"film.mkv"});
+}
+
+// An @ that no rate follows is part of the file's name, for the guard as for the display.
+TEST_F(PlayerProgram, ACaptureOntoTheFilmIsRefusedWhateverItsName) {
+  for (const char* film : {"a@b.mkv", "film.mkv"}) {
+    test::makeClip(at(film), {color(3), depth(3)});
+    for (const char* rate : {"", "@25"}) {
+      const auto result = play(at(film), "offscreen:" + at(film) + rate);
+      expectOneLine(result, 2, "would be overwritten");
+    }
+    EXPECT_EQ(test::runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
+  }
+}
+
+TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
+  expectOneLine(play("film.mkv --spin"), 2, "--spin");
+  expectOneLine(play(""), 2, "SOURCE");
+  expectOneLine(play("film.mkv", "hologram"), 2, "hologram");
+  expectOneLine(play("film.mkv --haptic glove"), 2, "glove");
+  expectOneLine(play("film.mkv --remote mind"), 2, "mind");
+  expectOneLine(play("film.mkv --calibration near=-5"), 2, "near=-5");
+  expectOneLine(play("film.mkv --haptic none --record " + at("t.csv")), 2, "--record");
+  expectOneLine(play("film.mkv --depth-strength nan"), 2, "--depth-strength: nan");
+  expectOneLine(play("film.mkv --depth-strength 2.1"), 2, "--depth-strength: 2.1");
+  expectOneLine(play("film.mkv --rate 9000"), 2, "--rate: 9000 is not between 500 and 8000");
+  expectOneLine(play("film.mkv --rate 499"), 2, "--rate: 499 is not between 500 and 8000");
+  expectOneLine(play("film.mkv --haptic replay:" + at("t.csv") + " --record " + at("t.csv")), 2,
+                "would be overwritten");
+  expectOneLine(play("film.mkv --haptic sim:tense," + at("t.csv") + " --record " + at("t.csv")), 2,
+                "would be overwritten");
+  expectOneLine(play("film.mkv " + at("next.mkv") + " --report " + at("next.mkv")), 2, "would be overwritten");
+  expectNothingLeft({});
+}
+
+// Some words can be judged only beside the film.
+TEST_F(PlayerProgram, ACalibrationThatDoesNotFitTheFilmIsWrongUse) {
+  ClipTrack bytes = depth(3);
+  bytes.pix_fmt = "gray";
+  test::makeClip(at("film.mkv"), {color(3), bytes});
+  for (const char* words : {"invalid=300", "bits=12", "near=6000"}) {
+    expectOneLine(play(at("film.mkv") + " --calibration " + words), 2, "calibration");
+    const auto probed = test::runProgram("relievo probe " + at("film.mkv") + " --calibration " + words, at(""));
+    EXPECT_EQ(probed.exit_code, 2) << probed.err;
+  }
+  std::ofstream(at("camera.txt")) << "near = 6000\n";
+  expectOneLine(play(at("film.mkv") + " --calibration " + at("camera.txt")), 1, "calibration");
+}
+
+TEST_F(PlayerProgram, AScriptThatIsMissingOrWrongIsOneLine) {
+  std::ofstream(at("keys.txt")) << "1 PLAY\n2 PLAZ\n";
+  std::ofstream(at("hand.csv")) << "t_s,x_mm,y_mm,z_mm\n0,1,2\n";
+  expectOneLine(play("film.mkv --remote script:" + at("none.txt")), 1, "none.txt: ");
+  expectOneLine(play("film.mkv --remote script:" + at("keys.txt")), 2, "keys.txt:2: ");
+  expectOneLine(play("film.mkv --haptic sim:" + at("none.csv")), 1, "none.csv: ");
+  expectOneLine(play("film.mkv --haptic sim:" + at("hand.csv")), 2, "hand.csv:2: ");
+}
+
+TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
+  const auto silent = play("udp://127.0.0.1:47391 --duration 1");
+  EXPECT_EQ(silent.exit_code, 1);
+  EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: --duration ended before the first picture came"));
+  test::makeClip(at("film.mkv"), {color(), depth()});
+  ::setenv("XDG_STATE_HOME", at("film.mkv").c_str(), 1);  // a file, where a folder is to be
+  expectOneLine(play(at("film.mkv") + " --resume"), 1, "--resume " + at("film.mkv"));
+  ::unsetenv("XDG_STATE_HOME");
+}
+
+TEST_F(PlayerProgram, AWrongKeyTableIsNamedByItsLine) {
+  std::ofstream(at("keys.toml")) << "[always]\nRIGHT = \"dance\"\n";
+  expectOneLine(play("film.mkv --keys " + at("keys.toml")), 2, "keys.toml:2");
+}
+
+}  // namespace
+}  // namespace relievo
