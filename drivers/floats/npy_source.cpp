@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Media source of a npy file: reads one picture of the array at a time.
-#include <atomic>
 #include <span>
 #include <string>
 
+#include "drivers/floats/counted_source.h"
 #include "drivers/floats/floats.h"
 #include "drivers/floats/npy_header.h"
-#include "platform/files/answered_file.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
-
-constexpr Duration kPeriod = std::chrono::milliseconds(40);  // as FFmpeg's of numbered pictures
 
 std::vector<std::uint8_t> beginningOf(const AnsweredFile& file, std::size_t bytes) {
   std::vector<std::uint8_t> begin(bytes);
@@ -33,16 +30,12 @@ std::string headerFor(const npy::Header& h) {
   return header + text;
 }
 
-class NpySource final : public MediaSource {
+class NpySource final : public CountedSource {
  public:
   ~NpySource() override { close(); }
 
  private:
-  Result<Description> openSource(const std::string& url) override {
-    interrupted_ = false;
-    auto file = AnsweredFile::open(url);
-    if (!file) return std::unexpected(file.error());
-    file_ = std::move(*file);
+  Result<Description> describe(const std::string&) override {
     const auto header = npy::parseHeader(beginningOf(file_, npy::kLongestHeader));
     if (!header) {
       return fail(ErrorCode::Unsupported,
@@ -54,7 +47,6 @@ class NpySource final : public MediaSource {
                   "a film in Fortran order cannot be read picture by picture; save numpy.ascontiguousarray(film)");
     }
     header_ = *header;
-    next_ = 0;
     StreamInfo stream{.kind = StreamKind::Video, .codec = kNpy.codec, .counted = true, .frame_period = kPeriod};
     stream.width = static_cast<int>(header_.cols);
     stream.height = static_cast<int>(header_.rows);
@@ -63,7 +55,7 @@ class NpySource final : public MediaSource {
   }
 
   Result<std::optional<Packet>> readPacket() override {
-    if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted");
+    if (isInterrupted()) return fail(ErrorCode::Cancelled, "interrupted");
     if (next_ == header_.pictures) return std::nullopt;
     const std::string header = headerFor(header_);
     const auto bytes = static_cast<std::size_t>(header_.pictureBytes());
@@ -76,25 +68,16 @@ class NpySource final : public MediaSource {
       return std::nullopt;
     }
     ++next_;
-    return Packet{.data = data->data(), .bytes = data->size(), .keyframe = true, .owner = data};
+    return packetOf(std::move(data));
   }
 
-  // Pictures without times are counted from the beginning.
-  Result<void> seekTo(MediaTime) override {
-    next_ = 0;
-    return {};
-  }
   [[nodiscard]] Duration missingTime() const noexcept override { return static_cast<std::int64_t>(cut_off_) * kPeriod; }
   void closeSource() noexcept override {
-    file_.close();
+    CountedSource::closeSource();
     cut_off_ = 0;
   }
-  void interrupted() noexcept override { interrupted_ = true; }
 
-  std::atomic<bool> interrupted_ = false;
-  AnsweredFile file_;
   npy::Header header_;
-  std::uint64_t next_ = 0;
   std::uint64_t cut_off_ = 0;  // pictures that the file's end has cut off
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Media source of a TIFF file of several pages: reads one page at a time.
-#include <atomic>
 #include <utility>
 
+#include "drivers/floats/counted_source.h"
 #include "drivers/tiff/tiff.h"
 #include "drivers/tiff/tiff_pages.h"
 #include "platform/print.h"
@@ -10,23 +10,16 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kPeriod = std::chrono::milliseconds(40);  // as FFmpeg's of numbered pictures
-
-class TiffSource final : public MediaSource {
+class TiffSource final : public CountedSource {
  public:
   explicit TiffSource(DescribeFirstPage describe) : describe_(std::move(describe)) {}
   ~TiffSource() override { close(); }
 
  private:
-  Result<Description> openSource(const std::string& url) override {
-    interrupted_ = false;
-    auto file = AnsweredFile::open(url);
-    if (!file) return std::unexpected(file.error());
-    file_ = std::move(*file);
+  Result<Description> describe(const std::string& url) override {
     auto pages = tiff::Pages::of(file_);
     if (!pages) return fail(ErrorCode::Corrupt, "is no TIFF of several pages; check the file");
     pages_ = std::move(*pages);
-    next_ = 0;
     auto stream = describe_(url);
     if (!stream) return std::unexpected(stream.error());
     stream->index = 0;
@@ -44,34 +37,24 @@ class TiffSource final : public MediaSource {
   // A page that is damaged is passed over.
   Result<std::optional<Packet>> readPacket() override {
     while (next_ < pages_.count()) {
-      if (interrupted_) return fail(ErrorCode::Cancelled, "interrupted");
-      auto page = pages_.page(file_, next_++);
+      if (isInterrupted()) return fail(ErrorCode::Cancelled, "interrupted");
+      auto page = pages_.page(file_, static_cast<std::size_t>(next_++));
       if (!page) {
         countMissed(1);
         continue;
       }
-      const auto data = std::make_shared<const std::vector<std::uint8_t>>(std::move(*page));
-      return Packet{.data = data->data(), .bytes = data->size(), .keyframe = true, .owner = data};
+      return packetOf(std::make_shared<const std::vector<std::uint8_t>>(std::move(*page)));
     }
     return std::nullopt;
   }
 
-  // Pictures without times are counted from the beginning.
-  Result<void> seekTo(MediaTime) override {
-    next_ = 0;
-    return {};
-  }
   void closeSource() noexcept override {
-    file_.close();
+    CountedSource::closeSource();
     pages_ = {};
   }
-  void interrupted() noexcept override { interrupted_ = true; }
 
   DescribeFirstPage describe_;
-  std::atomic<bool> interrupted_ = false;
-  AnsweredFile file_;
   tiff::Pages pages_;
-  std::size_t next_ = 0;
 };
 
 }  // namespace
