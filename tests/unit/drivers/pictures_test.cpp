@@ -25,37 +25,34 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+// The names tell moments, in ns.
+void expectMoments(const std::vector<std::string>& names, const std::vector<std::int64_t>& ns) {
+  const auto told = valuesOf(names);
+  EXPECT_EQ(told.kind, NameKind::Seconds) << names[0];
+  EXPECT_EQ(told.values, ns) << names[0];
+}
+
 TEST(PictureNames, SecondsAreExact) {
-  const auto tum = valuesOf({"1305031102.175304.png", "1305031102.2.png"});
-  EXPECT_EQ(tum.kind, NameKind::Seconds);
-  EXPECT_THAT(tum.values, ElementsAre(1305031102175304000, 1305031102200000000));
-  const auto nyu = valuesOf({"d-1294886362.665769-3143787185.pgm", "d-1294886362.793814-3151264321.pgm"});
-  EXPECT_EQ(nyu.kind, NameKind::Seconds);
-  EXPECT_THAT(nyu.values, ElementsAre(1294886362665769000, 1294886362793814000));
-  EXPECT_THAT(valuesOf({"1403636579763555584.png"}).values, ElementsAre(1403636579763555584));
-  EXPECT_THAT(valuesOf({"1403636579763555.png"}).values, ElementsAre(1403636579763555000));
-  EXPECT_THAT(valuesOf({"1403636579763.png"}).values, ElementsAre(1403636579763000000));
-  const auto redwood = valuesOf({"0000002-000000033369.jpg", "0000001-000000000000.jpg"});
-  EXPECT_EQ(redwood.kind, NameKind::Seconds);
-  EXPECT_THAT(redwood.values, ElementsAre(33369000, 0));
+  expectMoments({"1305031102.175304.png", "1305031102.2.png"}, {1305031102175304000, 1305031102200000000});
+  expectMoments({"d-1294886362.665769-3143787185.pgm", "d-1294886362.793814-3151264321.pgm"},
+                {1294886362665769000, 1294886362793814000});
+  expectMoments({"1403636579763555584.png"}, {1403636579763555584});
+  expectMoments({"1403636579763555.png"}, {1403636579763555000});
+  expectMoments({"1403636579763.png"}, {1403636579763000000});
+  expectMoments({"0000002-000000033369.jpg", "0000001-000000000000.jpg"}, {33369000, 0});
 }
 
 TEST(PictureNames, ARecordingsNumberMayStandBeforeItsSeconds) {
-  const auto names = valuesOf({"41069021_305.377.png", "41069021_306.010.png"});  // ARKitScenes
-  EXPECT_EQ(names.kind, NameKind::Seconds);
-  EXPECT_THAT(names.values, ElementsAre(305377000000, 306010000000));
+  expectMoments({"41069021_305.377.png", "41069021_306.010.png"}, {305377000000, 306010000000});  // ARKitScenes
 }
 
 // RealSense's rs-convert: milliseconds since 1970 with a fraction. HoloLens: 100 ns since 1601; .NET: since the year 1.
 // 2021-06-30 20:05:40.3874938 is 1625083540.3874938 s after 1970.
 TEST(PictureNames, OtherClocksCountAsWell) {
-  const auto ms = valuesOf({"a_Depth_1625083540387.49380000000000.png", "a_Depth_1625083540420.50000000000000.png"});
-  EXPECT_EQ(ms.kind, NameKind::Seconds);
-  EXPECT_THAT(ms.values, ElementsAre(1625083540387493800, 1625083540420500000));
-  const auto windows = valuesOf({"132695571403874938.pgm", "132695571405874938.pgm"});
-  EXPECT_EQ(windows.kind, NameKind::Seconds);
-  EXPECT_THAT(windows.values, ElementsAre(1625083540387493800, 1625083540587493800));
-  EXPECT_THAT(valuesOf({"637606803403874938.pgm"}).values, ElementsAre(1625083540387493800));
+  expectMoments({"a_Depth_1625083540387.49380000000000.png", "a_Depth_1625083540420.50000000000000.png"},
+                {1625083540387493800, 1625083540420500000});
+  expectMoments({"132695571403874938.pgm", "132695571405874938.pgm"}, {1625083540387493800, 1625083540587493800});
+  expectMoments({"637606803403874938.pgm"}, {1625083540387493800});
 }
 
 TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {

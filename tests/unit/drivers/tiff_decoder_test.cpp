@@ -7,13 +7,15 @@
 #include <fstream>
 #include <limits>
 
-#include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/float_tiff.h"
-#include "tests/support/film/recording/recorded_frames.h"
+#include "tests/unit/drivers/read_film.h"
 
 namespace relievo {
 namespace {
+
+using test::readFilm;
+using test::ReadFilm;
 
 // A slope of 10 m and values that are none, in a picture with odd sides.
 test::FloatTiff zBuffer() {
@@ -25,26 +27,6 @@ test::FloatTiff zBuffer() {
   z.samples[8] = std::numeric_limits<float>::quiet_NaN();
   z.samples[9] = 1e10F;
   return z;
-}
-
-struct Read {
-  StreamInfo stream;
-  std::vector<Frame> frames;
-  std::uint64_t damaged = 0;
-};
-
-Read read(const std::string& url) {
-  Read read;
-  const auto source = drivers::makeMediaSource(url);
-  EXPECT_TRUE(source->open(url));
-  if (source->streams().empty()) return read;
-  read.stream = source->streams()[0];
-  const auto decoder = drivers::makeVideoDecoder(read.stream);
-  EXPECT_TRUE(decoder->open(read.stream));
-  EXPECT_STREQ(decoder->capabilities().name, "tiff");
-  read.frames = test::framesOf(*source, read.stream, *decoder);
-  read.damaged = decoder->damaged();
-  return read;
 }
 
 void expectSame(const Frame& frame, const test::FloatTiff& z) {
@@ -74,7 +56,8 @@ TEST(TiffDecoder, NumbersKeepTheirValuesHoweverTheyAreStored) {
   for (const test::FloatTiff& one : {plain, deflated, lzw, tiled}) {
     SCOPED_TRACE(one.compression + one.tile);
     test::writeFloatTiff(folder / "z.tif", one);
-    const Read z = read(folder / "z.tif");
+    const ReadFilm z = readFilm(folder / "z.tif");
+    EXPECT_EQ(z.decoder, "tiff");
     ASSERT_EQ(z.frames.size(), 1u);
     expectSame(z.frames[0], one);
   }
@@ -85,7 +68,8 @@ TEST(TiffDecoder, LargeNumbersAreNoHoles) {
   test::FloatTiff z = zBuffer();
   for (float& sample : z.samples) sample *= sample < 1e9F ? 40 : 1;  // disparities of 8 to 400
   test::writeFloatTiff(folder / "z.tif", z);
-  const Read disparities = read(folder / "z.tif");
+  const ReadFilm disparities = readFilm(folder / "z.tif");
+  EXPECT_EQ(disparities.decoder, "tiff");
   ASSERT_EQ(disparities.frames.size(), 1u);
   const Frame& frame = disparities.frames[0];
   EXPECT_NEAR(test::sampleAt(frame, 0, 52, 36) * frame.value_per_code, static_cast<double>(z.samples.back()), 0.02);
@@ -103,7 +87,8 @@ TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
     cut.seekp(4);
     cut.write("\xff\xff\xff\x7f", 4);  // the directory lies beyond the file's end
   }
-  const Read film = read(folder / "z%d.tif");
+  const ReadFilm film = readFilm(folder / "z%d.tif");
+  EXPECT_EQ(film.decoder, "tiff");
   EXPECT_EQ(film.damaged, 1u);
   ASSERT_EQ(film.frames.size(), 4u);
   const Duration period = film.frames[1].pts - film.frames[0].pts;

@@ -7,23 +7,22 @@
 #include <cstring>
 #include <filesystem>
 
-#include "app/media/pair_reader.h"
 #include "app/media/reading/known_kind.h"
-#include "app/scene/height_field.h"
-#include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
+#include "tests/support/film/scene_film.h"
 
 namespace relievo {
 namespace {
 
 using test::ClipTrack;
 using test::distanceMm;
+using test::expectScene;
 using test::makeClip;
+using test::OpenedFilm;
+using test::openFilm;
 using test::TemporaryFolder;
-
-constexpr DisplayVolume kVolume{160, 108, 40};
-const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
 
 using Sample = std::function<std::uint32_t(int, int, int, int)>;
 ClipTrack track(const char* codec, const char* format, Sample sample, int frames = 1) {
@@ -39,43 +38,11 @@ std::uint32_t rounded(double code) {
   return static_cast<std::uint32_t>(std::lround(code));
 }
 
-struct Opened {
-  FilmInfo info;
-  FramePair pair;
-};
-Opened openFilm(const std::string& url) {
-  PairReader reader(kReal);
-  const auto opened = reader.open({.url = url});
-  EXPECT_TRUE(opened) << opened.error().message;
-  auto pair = opened ? reader.next() : Result<std::optional<FramePair>>(std::nullopt);
-  return {reader.info(), pair && *pair ? std::move(**pair) : FramePair{}};
-}
-
-// By the definition in app/scene/depth_calibration.h: z = D (far - Z)/(far - near). What is read is `scale` times the
-// true distance, to within `share` of it.
-void expectScene(const Opened& film, double scale, double share) {
-  ASSERT_FALSE(film.pair.depth.empty());
-  const DepthCalibration& c = film.info.calibration.calibration;
-  const HeightField field = HeightField::make(film.pair.depth, c, kVolume).value();
-  for (int r = 0; r < test::kSceneRows; ++r) {
-    for (int x = 0; x < test::kSceneCols; ++x) {
-      const double mm = distanceMm(x, r), height = field.heightMm(x, r);
-      ASSERT_EQ(std::isnan(height), mm == 0) << x << ", " << r;
-      if (mm == 0) continue;
-      const double read = c.far_mm - height / kVolume.depth_mm * (c.far_mm - c.near_mm);
-      ASSERT_NEAR(read / (scale * mm), 1, share) << x << ", " << r;
-    }
-  }
-}
-
 // The true shape of distances whose scale nobody knows.
-void expectShape(const Opened& film, double share) {
-  const DepthCalibration& c = film.info.calibration.calibration;
+void expectShape(const OpenedFilm& film, double share) {
   ASSERT_FALSE(film.pair.depth.empty());
-  const HeightField field = HeightField::make(film.pair.depth, c, kVolume).value();
-  const int x = test::kSceneCols / 2, r = test::kSceneRows / 2;
-  const double read = c.far_mm - field.heightMm(x, r) / kVolume.depth_mm * (c.far_mm - c.near_mm);
-  expectScene(film, read / distanceMm(x, r), share);
+  const int c = test::kSceneCols / 2, r = test::kSceneRows / 2;
+  expectScene(film, film.distanceAt(c, r) / distanceMm(c, r), {.share = share});
 }
 
 // Cityscapes, InStereo2K, DrivingStereo and OAK-D differ in how many codes a pixel has.
@@ -87,7 +54,7 @@ TEST(OddCodes, SixteenBitsThatAreNamedDisparityAreNearWhereHigh) {
                const double mm = distanceMm(c, r);
                return mm == 0 ? 0 : rounded(1.6e7 / mm);
              })});
-    const Opened film = openFilm(folder / name);
+    const OpenedFilm film = openFilm({.url = folder / name});
     EXPECT_EQ(film.info.packing, Packing::DepthAlone);
     expectShape(film, 0.001);
   }
@@ -102,7 +69,7 @@ TEST(OddCodes, SintelsDisparitiesAreReadFromTheBytesOfRgb) {
              const std::uint32_t code = mm == 0 ? 0 : rounded(16384 * 120000 / mm);
              return code >> (8 * (2 - k)) & 0xff;
            })});
-  expectShape(openFilm(folder / "disparities/alley/frame_0001.png"), 0.001);
+  expectShape(openFilm({.url = folder / "disparities/alley/frame_0001.png"}), 0.001);
 }
 
 // TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; its sky lies at 10 km.
@@ -116,9 +83,9 @@ TEST(OddCodes, FloatsInFourBytesAreMetres) {
              const int byte = k == 0 ? 2 : k == 2 ? 0 : k;
              return bits >> (8 * byte) & 0xff;
            })});
-  const Opened film = openFilm(folder / "a.png");
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
-  expectScene(film, 1, 0.002);
+  expectScene(film, 1, {.share = 0.002});
 }
 
 // 24 bits of a share of 3 m, the highest in red. A half of them is not the depth of the other.
@@ -128,16 +95,16 @@ TEST(OddCodes, SteepSlopesOfCodesInThreeBytesAreDepthAsAWhole) {
              const double mm = r > 54 ? 2900 - 40 * (r - 54) : 2000 + 2.0 * c;
              return rounded(0xffffff * mm / 6000) >> (8 * (2 - k)) & 0xff;
            })});
-  EXPECT_EQ(openFilm(folder / "a.png").info.packing, Packing::DepthAlone);
+  EXPECT_EQ(openFilm({.url = folder / "a.png"}).info.packing, Packing::DepthAlone);
 }
 
 TEST(OddCodes, GrayOfFortyEightBitsIsReadAsGrayIs) {
   TemporaryFolder folder;
   makeClip(folder / "a.png",
            {track("png", "rgb48be", [](int, int c, int r, int) { return rounded(distanceMm(c, r)); })});
-  const Opened film = openFilm(folder / "a.png");
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
-  expectScene(film, 1, 0.001);
+  expectScene(film, 1, {.share = 0.001});
 }
 
 TEST(OddCodes, TaskonomysNamesSay512CodesAMetre) {
@@ -147,7 +114,7 @@ TEST(OddCodes, TaskonomysNamesSay512CodesAMetre) {
              const double mm = distanceMm(c, r);
              return mm == 0 ? 65535 : rounded(0.512 * mm);
            })});
-  expectScene(openFilm(path), 1, 0.002);
+  expectScene(openFilm({.url = path}), 1, {.share = 0.002});
 }
 
 // A network's 16 bits from 0 to 65535 in a file without a telling name.
@@ -156,7 +123,7 @@ TEST(OddCodes, GrayOfMoreThanEightBitsIsDepth) {
   makeClip(
       folder / "a.png",
       {track("png", "gray16be", [](int, int c, int r, int) { return rounded(65535 * (1 - c / 200.0 - r / 800.0)); })});
-  EXPECT_EQ(openFilm(folder / "a.png").info.packing, Packing::DepthAlone);
+  EXPECT_EQ(openFilm({.url = folder / "a.png"}).info.packing, Packing::DepthAlone);
 }
 
 // Marigold's folder of gray pictures.
@@ -165,7 +132,7 @@ TEST(OddCodes, NearIsDarkInAFolderOfMarigold) {
   std::filesystem::create_directories(folder / "depth_bw");
   makeClip(folder / "depth_bw/a_pred.png",
            {track("png", "gray16be", [](int, int c, int r, int) { return rounded(25 * distanceMm(c, r)); })});
-  const Opened film = openFilm(folder / "depth_bw/a_pred.png");
+  const OpenedFilm film = openFilm({.url = folder / "depth_bw/a_pred.png"});
   EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow);
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
 }
@@ -182,7 +149,7 @@ TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
   for (const ClipTrack& depth : {track("ffv1", "gray16le", codes, 4), track("ffv1", "yuv420p", gray, 4)}) {
     TemporaryFolder folder;
     makeClip(folder / "a.mkv", {depth, color});
-    const Opened film = openFilm(folder / "a.mkv");
+    const OpenedFilm film = openFilm({.url = folder / "a.mkv"});
     ASSERT_FALSE(film.pair.depth.empty());
     EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
     EXPECT_EQ(test::sampleAt(film.pair.color, 0, 33, 44), photo(0, 33, 44, 0)) << depth.pix_fmt;

@@ -6,24 +6,23 @@
 #include <cmath>
 #include <functional>
 
-#include "app/media/pair_reader.h"
 #include "app/media/reading/code_count.h"
-#include "app/scene/height_field.h"
-#include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
+#include "tests/support/film/scene_film.h"
 
 namespace relievo {
 namespace {
 
 using test::ClipTrack;
 using test::distanceMm;
+using test::expectScene;
 using test::hueColor;
 using test::makeClip;
+using test::OpenedFilm;
+using test::openFilm;
 using test::TemporaryFolder;
-
-constexpr DisplayVolume kVolume{160, 108, 40};
-const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
 
 // Pictures of RGB in 8 bits: the value of component k.
 ClipTrack pictures(std::function<std::uint32_t(int, int, int)> value) {
@@ -39,50 +38,25 @@ ClipTrack packed(int upper, std::uint32_t blue = 0) {
   });
 }
 
-FramePair firstPair(PairReader& reader, const SourceOptions& options) {
-  const auto opened = reader.open(options);
-  EXPECT_TRUE(opened) << opened.error().message;
-  auto pair = reader.next();
-  return pair && *pair ? std::move(**pair) : FramePair{};
-}
-
-// The distance of each sample, and holes; z = D (far - Z)/(far - near).
-void expectDistances(const Frame& depth, const DepthCalibration& calibration) {
-  const HeightField field = HeightField::make(depth, calibration, kVolume).value();
-  for (int r = 0; r < test::kSceneRows; ++r) {
-    for (int c = 0; c < test::kSceneCols; ++c) {
-      const double mm = distanceMm(c, r), height = field.heightMm(c, r);
-      ASSERT_EQ(std::isnan(height), mm == 0) << c << ", " << r;
-      if (mm == 0) continue;
-      const double read = calibration.far_mm - height / kVolume.depth_mm * (calibration.far_mm - calibration.near_mm);
-      ASSERT_NEAR(read, mm, 0.51) << c << ", " << r;
-    }
-  }
-}
-
 TEST(PackedCodes, RedAndGreenAreTheBytesOfADistance) {
   for (const int upper : {0, 1}) {
     TemporaryFolder folder;
     makeClip(folder / "color.png", {pictures([](int, int c, int r) { return static_cast<std::uint32_t>(c + r); })});
     makeClip(folder / "depth.png", {packed(upper, upper == 0 ? 0 : 255)});
-    PairReader reader(kReal);
-    const FramePair pair = firstPair(reader, {.url = folder / "color.png", .depth_url = folder / "depth.png"});
-    ASSERT_FALSE(pair.depth.empty());
-    expectDistances(pair.depth, reader.info().calibration.calibration);
-    const FilmReading& reading = reader.info().reading;
-    EXPECT_NE(plainLine(reading, reader.info().calibration.calibration).find("two bytes"), std::string::npos);
+    const OpenedFilm film = openFilm({.url = folder / "color.png", .depth_url = folder / "depth.png"});
+    expectScene(film, 1, {.mm = 0.51});
+    const FilmReading& reading = film.info.reading;
+    EXPECT_NE(plainLine(reading, film.info.calibration.calibration).find("two bytes"), std::string::npos);
   }
 }
 
 TEST(PackedCodes, AloneTheyAreFeltAsWell) {
   TemporaryFolder folder;
   makeClip(folder / "a.png", {packed(0)});
-  PairReader reader(kReal);
-  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
-  EXPECT_EQ(reader.info().packing, Packing::DepthAlone);
-  ASSERT_FALSE(pair.depth.empty());
-  expectDistances(pair.depth, reader.info().calibration.calibration);
-  EXPECT_EQ(pair.color.components[0].bits, pair.color.components[1].bits) << "shown as gray";
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+  expectScene(film, 1, {.mm = 0.51});
+  EXPECT_EQ(film.pair.color.components[0].bits, film.pair.color.components[1].bits) << "shown as gray";
 }
 
 // CARLA: (R + 256 G + 65536 B) / (2^24 - 1) km; the scene at ten times its distance, white for its holes.
@@ -93,20 +67,8 @@ TEST(PackedCodes, CarlasThreeBytesAreAKilometre) {
              const auto code = mm == 0 ? 0xffffffu : static_cast<std::uint32_t>(mm / 1e6 * 0xffffff);
              return code >> (8 * k) & 0xff;
            })});
-  PairReader reader(kReal);
-  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
-  ASSERT_FALSE(pair.depth.empty());
-  const DepthCalibration& calibration = reader.info().calibration.calibration;
-  const HeightField field = HeightField::make(pair.depth, calibration, kVolume).value();
-  for (int r = 0; r < test::kSceneRows; ++r) {
-    for (int c = 0; c < test::kSceneCols; ++c) {
-      const double mm = 10 * distanceMm(c, r), height = field.heightMm(c, r);
-      ASSERT_EQ(std::isnan(height), mm == 0) << c << ", " << r;
-      if (mm == 0) continue;
-      const double read = calibration.far_mm - height / kVolume.depth_mm * (calibration.far_mm - calibration.near_mm);
-      ASSERT_NEAR(read, mm, 16) << "a code is 15.26 mm, at " << c << ", " << r;
-    }
-  }
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
+  expectScene(film, 10, {.mm = 16});  // a code is 15.26 mm
 }
 
 // Android's DEPTH16: the confidence stands in the upper three bits.
@@ -121,10 +83,8 @@ TEST(PackedCodes, ConfidenceAboveTheDistanceIsLeftOut) {
       return code == 0 || !with ? code : code | confidence << 13;
     };
     makeClip(folder / "a.png", {track});
-    PairReader reader(kReal);
-    const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
-    ASSERT_FALSE(pair.depth.empty());
-    expectDistances(pair.depth, reader.info().calibration.calibration);
+    const OpenedFilm film = openFilm({.url = folder / "a.png"});
+    expectScene(film, 1, {.mm = 0.51});
   }
 }
 
@@ -147,12 +107,11 @@ TEST(PackedCodes, BesideTheirColourTheyAreFeltAsWell) {
                if (k == 2) return with_blue ? static_cast<std::uint32_t>(c * 37 + r * 11) % 256 : 0;
                return k == 0 ? code(c, r) >> 8 : code(c, r) & 0xff;
              })});
-    PairReader reader(kReal);
-    const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
-    EXPECT_EQ(reader.info().packing, Packing::SideBySide);
-    ASSERT_EQ(pair.depth.width, test::kSceneCols);
+    const OpenedFilm film = openFilm({.url = folder / "a.png"});
+    EXPECT_EQ(film.info.packing, Packing::SideBySide);
+    ASSERT_EQ(film.pair.depth.width, test::kSceneCols);
     for (int r = 0; r < test::kSceneRows; ++r) {
-      for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(pair.depth, 0, c, r), code(c, r));
+      for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(film.pair.depth, 0, c, r), code(c, r));
     }
   }
 }
@@ -162,13 +121,12 @@ TEST(PackedCodes, AWhiteMarginBetweenTheHalvesBelongsToNeither) {
   TemporaryFolder folder;
   const auto shade = [](int c, int r) { return static_cast<std::uint32_t>(20 + 2 * c % 200 + r % 30); };
   makeClip(folder / "a.png", {besideColor(50, [&](int, int c, int r) { return shade(c, r); })});
-  PairReader reader(kReal);
-  const FramePair pair = firstPair(reader, {.url = folder / "a.png"});
-  EXPECT_EQ(reader.info().packing, Packing::SideBySide);
-  ASSERT_EQ(pair.depth.width, test::kSceneCols);
-  EXPECT_EQ(pair.color.width, test::kSceneCols);
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
+  EXPECT_EQ(film.info.packing, Packing::SideBySide);
+  ASSERT_EQ(film.pair.depth.width, test::kSceneCols);
+  EXPECT_EQ(film.pair.color.width, test::kSceneCols);
   for (int r = 0; r < test::kSceneRows; ++r) {
-    for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(pair.depth, 0, c, r), shade(c, r)) << c;
+    for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(film.pair.depth, 0, c, r), shade(c, r)) << c;
   }
 }
 
@@ -177,9 +135,8 @@ TEST(PackedCodes, HuesAndPhotosAreNone) {
   const auto orderOf = [](const ClipTrack& track) {
     TemporaryFolder folder;
     makeClip(folder / "a.png", {track});
-    PairReader reader(kReal);
-    const FramePair pair = firstPair(reader, {.url = folder / "a.png", .packing = Packing::DepthAlone});
-    return packedOrder(pair.depth);
+    const OpenedFilm film = openFilm({.url = folder / "a.png", .packing = Packing::DepthAlone});
+    return packedOrder(film.pair.depth);
   };
   EXPECT_EQ(orderOf(pictures([](int k, int c, int r) {
               const double mm = distanceMm(c, r), s = mm == 0 ? 0 : (mm - 1000) / 3300;

@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "app/scene/depth_calibration.h"
-#include "app/scene/height_field.h"
-#include "tests/support/film/depth_frames.h"
+#include "tests/unit/scene/code_height.h"
 
 namespace relievo {
 namespace {
 
-constexpr DisplayVolume kVolume{160, 108, 40};
-
-double heightOf(std::uint32_t code, int bits, const DepthCalibration& calibration) {
-  const Frame frame = test::makeGrayFrame(1, 1, bits, {}, [&](int, int) { return code; });
-  return HeightField::make(frame, calibration, kVolume).value().heightMm(0, 0);
-}
+using test::heightOf;
+using test::kVolume;
 
 TEST(Calibration, ParsesCommandLinesAndSideFilesAndNamesWhatIsWrong) {
   const auto settings = parseCalibration(" law = inverse # comment\n near=400,far=2e3\n\n");
