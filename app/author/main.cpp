@@ -94,10 +94,9 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
          "below "
          "each other; the film's\ncolour is the left view\nCMD: a command that guesses it from one view. /bin/sh runs "
          "it; "
-         "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes as many of 16 bits, little "
-         "endian, "
-         "larger is nearer, in\ntheir order, up to 64 pictures late\nMODEL.onnx: a network that does so, as MiDaS and "
-         "Depth Anything do")
+         "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes one depth picture for each, in "
+         "the same order, up to\n64 pictures later: 16 bits a sample, little endian, larger is nearer\nMODEL.onnx: a "
+         "network that guesses it, such as MiDaS or Depth Anything")
       ->type_name("stereo|CMD|MODEL.onnx")
       ->excludes("--depth");
   app.add_option_function<std::string>(

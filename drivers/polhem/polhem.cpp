@@ -101,7 +101,7 @@ class Polhem final : public HapticDevice {
     const Command command{.verb = Verb::Calibrate, .counts = config_.description.calibrate_enc};
     for (auto sent = port_->post(bytesOf(command)); !sent || !*sent; sent = port_->post(bytesOf(command))) {
       if (!sent) return std::unexpected(sent.error());
-      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
+      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was cancelled");
       clock_.sleepUntil(clock_.now() + kHomingTick);
     }
     const auto shown = waitUntilStill(kSettled);
@@ -122,7 +122,7 @@ class Polhem final : public HapticDevice {
     std::optional<EncoderCounts> first;
     MonotonicTime since = clock_.now();
     for (;;) {
-      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was called off");
+      if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Polhem was cancelled");
       if (auto sent = port_->post(bytesOf(Command{})); !sent) return std::unexpected(sent.error());
       clock_.sleepUntil(clock_.now() + kHomingTick);
       const auto report = newestReport();

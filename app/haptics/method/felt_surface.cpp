@@ -217,7 +217,8 @@ RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindo
   return {time(moment.present - 2), time(moment.present), time(moment.present + 3)};
 }
 
-// In the last ticks before the next frame, a few blocks in each: a finger that moves fast would be elsewhere by then.
+// Reads blocks of the next frame before it is due, at the place that the finger will have reached. Only in the last 20
+// ms: earlier, a fast finger could still go elsewhere.
 void FeltSurface::readAhead(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment,
                             const glm::dvec2& place_mm, const glm::dvec2& mm_per_s) RELIEVO_RT {
   constexpr Duration kAhead = std::chrono::milliseconds(20);

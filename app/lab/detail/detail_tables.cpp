@@ -93,8 +93,8 @@ ChartWords detailWords(std::span<const DetailFigures> figures) {
           "%s, the player's %g px: %.0f thousand triangles (%.0f %% of the full grid's), %.1f dB (SSIM %.3f) from "
           "what the eyes would see; the full grid %.1f (%.3f), a grid of %.0f thousand %.1f. Near silhouettes the full "
           "mesh is no measure; away from them (%.0f %% of the pixels) the player's is %.1f dB from it, the grid of "
-          "%.0f thousand %.1f. A finger on these triangles is off by %.2g %% of the force, on all samples by %.2g %%: "
-          "it feels those. By god-object it is %.2g and %.2g %%, by god-object-smoothed %.2g and %.2g %%.",
+          "%.0f thousand %.1f. The error of the force would be %.2g %% on these triangles; relievo feels all samples, "
+          "where it is %.2g %%. With god-object it is %.2g and %.2g %%, with god-object-smoothed %.2g and %.2g %%.",
           own.depth->name, own.level.error_px, own.triangles / 1e3, 100 * own.triangles / all.triangles,
           own.truth.psnrDb(), own.truth.similarity(), all.truth.psnrDb(), all.truth.similarity(), alike.triangles / 1e3,
           alike.truth.psnrDb(), 100 * away, own.away.psnrDb(), alike.triangles / 1e3, alike.away.psnrDb(),

@@ -31,8 +31,8 @@ class Judge {
   // A figure that is not a number fails.
   void atMost(double figure, const Limit& limit, const std::string& why);
   void atLeast(double figure, const Limit& limit, const std::string& why);
-  // What holds in every scenario: finite, within the peak, and the scene no faster than its slew. Reads the forces that
-  // were sent, not the filter that limited them.
+  // Demands of every scenario: the force is finite and at most the peak, and the scene changes it no faster than the
+  // slew limit. Judges the forces that were sent, not what the safety filter says of them.
   void bounds(std::span<const StageTick> ticks, double stiffness_n_per_mm, double peak_force_n = 10);
   void add(const Verdict& verdict);
 

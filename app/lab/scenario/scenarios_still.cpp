@@ -55,9 +55,9 @@ Verdict strokeStep(const Challenger& challenger, bool /*quick*/) {
     }
   }
   Judge judge;
-  judge.atMost(hung_mm, kHungPastEdge, "past the edge and still held up");
-  judge.atLeast(100 * against, kWallPushesAtLeast, "of the wall's push at least");
-  judge.atMost(100 * most, kWallPushesAtMost, "of the wall's push at most");
+  judge.atMost(hung_mm, kHungPastEdge, "past the edge while the finger is still held up");
+  judge.atLeast(100 * against, kWallPushesAtLeast, "of the expected force of the wall, at least");
+  judge.atMost(100 * most, kWallPushesAtMost, "of the expected force of the wall, at most");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
@@ -82,7 +82,7 @@ Verdict thin(const Challenger& challenger, bool /*quick*/) {
     bounds.bounds(ticks, challenger.stiffness_n_per_mm);
   }
   Judge judge;
-  judge.atLeast(100 * least, kForceNotBelow, "of the ridge's push 3 mm and more beyond it");
+  judge.atLeast(100 * least, kForceNotBelow, "of the expected force, 3 mm or more behind the front of a ridge");
   judge.add(bounds.verdict());
   return judge.verdict();
 }
@@ -138,7 +138,7 @@ Verdict fastHip(const Challenger& challenger, bool /*quick*/) {
   const double floor = meanForce(between(downwards, 0.08, 0.1)).z / (challenger.stiffness_n_per_mm * 10);
   Judge judge;
   judge.atLeast(100 * std::min(side, floor), kForceNotBelow,
-                side < floor ? "of the push of a ridge gone through" : "of the push of a floor gone into");
+                side < floor ? "of the expected force of a ridge" : "of the expected force of a floor");
   judge.bounds(sideways, challenger.stiffness_n_per_mm);
   judge.bounds(downwards, challenger.stiffness_n_per_mm);
   return judge.verdict();

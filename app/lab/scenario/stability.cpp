@@ -121,9 +121,10 @@ ChartWords onsetWords(const std::vector<Onset>& onsets) {
   const auto& [high_hz, high] = *by_rate.rbegin();
   return {
       "Stiffness from which a device swings on a wall",
-      print("relievo: without dry friction within %.0f %% of 2b/((1+2n)T); with friction and encoder from %.2f "
-            "times the lesser of that and 2fc/step on. From %.0f Hz to %.0f Hz it grows from %.2f to %.2f N/mm, %.1f "
-            "times; what people feel as unstable grew %.1f times (Choi and Tan 2004).",
+      print("relievo: without dry friction the device swings from a stiffness within %.0f %% of 2b/((1+2n)T); with "
+            "friction and an encoder, from %.2f times the lesser of that and 2fc/step. From %.0f Hz to %.0f Hz this "
+            "stiffness grows from %.2f to %.2f N/mm, %.1f times; the stiffness that people feel as unstable grew %.1f "
+            "times (Choi and Tan 2004).",
             100 * furthest, least, low_hz, high_hz, low, high, high / low,
             perceivedOnset(high_hz) / perceivedOnset(low_hz))};
 }

@@ -14,7 +14,8 @@
 namespace relievo {
 namespace {
 
-// Neither the finger nor the surface moves further in one piece: far less than the narrowest shape is wide.
+// A longer motion of the finger or the surface is divided into steps of this length, which is far smaller than the
+// narrowest shape.
 constexpr double kPieceMm = 0.05;
 constexpr double kOnTheWayMm = 1e-6;  // the proxy's tolerance within a tick
 constexpr double kAtTheEndMm = 1e-13;

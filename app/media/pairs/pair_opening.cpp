@@ -110,10 +110,12 @@ void PairReader::Impl::takeDepthBeside(const StreamInfo& color) {
   options.depth_url = file;
   const auto opened = selectDepth(nullptr, color);
   if (opened) {
-    info.notes.push_back(print("its depth is %s, which lies beside it; --depth FILE takes another", file.c_str()));
+    info.notes.push_back(
+        print("depth is read from %s, which lies beside the film; --depth FILE takes another", file.c_str()));
     return;
   }
-  info.notes.push_back(print("%s beside it is no depth that can be read: %s", file.c_str(), opened.error().message));
+  info.notes.push_back(
+      print("%s lies beside the film but cannot be read as depth: %s", file.c_str(), opened.error().message));
   options.depth_url.clear();
   failed_thing.clear();
   sources.dropDepth();

@@ -20,7 +20,7 @@ constexpr double kMmPerMetre = 1000;
 constexpr double kFarthestMetres = 200;   // half of the samples beyond: millimetres
 constexpr double kLeastCentimetres = 20;  // a scene that is nearer is rare
 constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
-// Disparities whose largest is so many times their smallest are relative: their zero is no infinite distance.
+// Disparities whose largest is more than so many times their smallest are relative: 0 does not mean infinitely far.
 constexpr double kMostRatio = 64;
 constexpr double kNearMm = 500;  // of disparities, whose scale is unknown
 constexpr int kNames = 3;        // of a path, from its end

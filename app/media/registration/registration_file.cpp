@@ -16,7 +16,8 @@ constexpr const char* kBadCamera =
     "[depth] and [color] each need size = [columns, rows], focal = [x, y] and center = [x, y], in pixels, and may have "
     "distortion = [k1, k2, p1, p2, k3] or [k1, k2, p1, p2, k3, k4, k5, k6]";
 constexpr const char* kBadMotion =
-    "[depth_to_color] has rotation = nine numbers, row by row, of a rotation, and translation_mm = three";
+    "[depth_to_color] needs rotation = nine numbers of a rotation matrix, row by row, and translation_mm = three "
+    "numbers";
 constexpr const char* kBadUnit = "depth.unit_mm must be over 0: the distance of one depth code in mm";
 constexpr double kSquareToWithin = 1e-3;  // deviation from an orthonormal matrix
 

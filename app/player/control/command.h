@@ -72,13 +72,13 @@ struct PlayerCommand {
 [[nodiscard]] std::string whyNoCommand(std::string_view words);
 // Words that `parseCommand` reads back.
 [[nodiscard]] std::string wordsOf(const PlayerCommand& command);
-// All of them, "play, pause, .., seek +S|-S|S|P%, ..": for a message.
+// All commands, for a message: "play, pause, .., seek +S|-S|S|P%, ..".
 [[nodiscard]] std::string commandWords();
-// What it does, for the help: "pause, or go on", "10 s forward".
+// What the command does, for the help: "pause, or go on", "10 s forward".
 [[nodiscard]] std::string meaningOf(const PlayerCommand& command);
-// What it does it does to a film, so that it means nothing in the list of films.
+// True if the command acts on a film that plays; in the list of films it does nothing.
 [[nodiscard]] bool needsFilm(PlayerVerb verb) noexcept;
-// Done again and again while its key is held down.
+// True if the command repeats while its key is held down.
 [[nodiscard]] bool repeats(PlayerVerb verb) noexcept;
 
 }  // namespace relievo

@@ -30,8 +30,8 @@ class DecodePace {
   [[nodiscard]] bool leavesOut() const noexcept { return leaves_out_; }
   // True when the reader should hurry now, told once.
   [[nodiscard]] bool takeHurry() noexcept { return std::exchange(hurry_, false); }
-  // While nothing is buffered: it is the source that is waited for, not the decoder. A thread that waits for a busy
-  // processor may do so anywhere: only what lasts tells.
+  // While nothing is buffered: true if the player waits for the source and not for the decoder. Needs several rounds,
+  // since a busy processor can stop the reading thread at any place for a short time.
   [[nodiscard]] bool waitsForSource() const noexcept { return dry_for_ >= kTelling && 2 * dry_decodes_ <= dry_rounds_; }
 
  private:

@@ -127,7 +127,7 @@ class FilmPlayback {
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;
   // The target of a pending seek, else `place`, so that several presses of a seek key add up.
   [[nodiscard]] MediaTime goal(MonotonicTime now) const;
-  // Up to here pictures are decoded.
+  // The time of the last picture that is decoded.
   [[nodiscard]] MediaTime bufferedUntil() const;
   // `place` if it should be kept for later: the film has a known length and no seek is pending.
   [[nodiscard]] std::optional<MediaTime> placeToKeep(MonotonicTime now) const;

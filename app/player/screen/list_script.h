@@ -16,7 +16,7 @@ namespace relievo {
 void addList(Script& script, const ScreenList& list, const std::string& help_key);
 // The posters of its rows, for a view of `frame`: over what `addList` draws.
 [[nodiscard]] std::vector<TextPicture> postersOf(const ScreenList& list, const TextFrame& frame);
-// `across` and `down` in shares of the view; nullopt: over no film.
+// The film at a place of the view, `across` and `down` from 0 to 1; nullopt if none is there.
 [[nodiscard]] std::optional<std::size_t> listFilmAt(const ScreenList& list, double across, double down,
                                                     double aspect) noexcept;
 

@@ -55,7 +55,7 @@ class Picture {
   void clear() noexcept;
   // What stands over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
-  // Shown with the pictures of their times, `delay` later.
+  // Each is shown `delaySubtitles` later than its time in the film.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return subtitles_; }
   void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }

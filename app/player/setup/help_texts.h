@@ -14,7 +14,7 @@ inline constexpr const char* kProgramFooter =
     "  relievo film.mkv                               in a window; press into the picture with the mouse to feel it\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
-    "  relievo devices                                what hardware is there, and why a thing is refused\n"
+    "  relievo devices                                which devices are there, and why one cannot be used\n"
     "  relievo selftest                               whether it works here, without any hardware\n"
     "\nA file that is named like a command is reached by its path, as ./play. `relievo-author --help` tells how to "
     "make "

@@ -82,7 +82,7 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   program.require_subcommand(1);
   CLI::App& play = *program.add_subcommand("play", kPlayAbout);
   CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
-  CLI::App& devices = *program.add_subcommand("devices", "Tell what hardware is there, and why a thing is refused");
+  CLI::App& devices = *program.add_subcommand("devices", "List the devices that are there, and why one cannot be used");
   CLI::App& self_test = *program.add_subcommand("selftest", "Tell whether it works here, without any hardware");
   self_test.footer(kSelfTestFooter);
   CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");

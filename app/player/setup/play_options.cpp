@@ -230,10 +230,10 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       "keys: the terminal's]");
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
              "Where the sound goes [with a window or a whole screen alsa, else none]");
-  CLI::Option* const decoder =
-      addBackEnd(command, "--decoder", play.decoder, "decoder", names.decoder,
-                 "What decodes the picture; where it cannot, FFmpeg does [the video hardware, else ffmpeg]");
-  command.add_flag("--software", play.software, "Decode without the video hardware, where that shows faults")
+  CLI::Option* const decoder = addBackEnd(
+      command, "--decoder", play.decoder, "decoder", names.decoder,
+      "The decoder of the picture; FFmpeg takes over what it cannot decode [the video hardware, else ffmpeg]");
+  command.add_flag("--software", play.software, "Decode without the video hardware, for hardware that shows faults")
       ->excludes(decoder);
   addBoxOption(command, play.player.volume);
   addSoundAndTextOptions(command, play.player);

@@ -53,8 +53,8 @@ class Sound {
   [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
   // The film has no sound: the output is given back, and opened again for one that has.
   void rest() noexcept;
-  // The factor on the samples, from the next ones on; it changes without a click. `at_once`: what the output holds is
-  // dropped, so that nothing of it is heard with the old one.
+  // Multiplies the following samples by `gain`, without a click at the change. `at_once`: also drops the samples that
+  // the output still holds, which have the old gain.
   void setGain(double gain, bool at_once = false) noexcept;
   // The sound is heard so much later than the film's times say.
   void setDelay(Duration delay) noexcept;

@@ -126,8 +126,8 @@ void expectOf(const Challenger& challenger, const std::map<std::string, double>&
   }
 }
 
-// The force of a finger that has come in sideways, or slides, is .3 of its size aside, and 17 degrees: with what else a
-// scenario allows.
+// With a friction of .3, the force on a finger that slides has a tangential part of 30 % and is tilted by 17 degrees.
+// Each limit is this plus what the scenario allows without friction.
 TEST(Scenarios, ASurfaceWithFrictionIsPassedButForWhatFrictionIs) {
   const double aside = 30, degrees = 180 / M_PI * std::atan(0.3);
   expectOf(challengerMadeOf(*parseMaterial("friction=.3")), {{"rise-free", aside + 5},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A display card of this program alone: it defines the functions of libdrm and GBM, and the window surfaces of EGL,
-// that the display driver calls, so that what the driver draws and sets is judged as a kernel judges it, and seen as a
-// television sees it. Link relievo_fake_card into the program.
+// that the display driver calls. It accepts and refuses what a kernel does, and holds the picture that a television
+// would show. Link relievo_fake_card into the program.
 #pragma once
 
 #include <xf86drmMode.h>
