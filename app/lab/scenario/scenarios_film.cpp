@@ -62,7 +62,7 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
   const glm::dvec3 soon = meanForce(between(ticks, kCut + 0.05, kCut + 0.07));
   Judge judge;
   judge.atMost(100 * peakForce(between(ticks, 0.45, kLift)) / pressed, kNothingAdded,
-               "of the force before the cut, as a peak at the cut");
+               "of the force before the cut: peak at the cut");
   judge.atLeast(100 * glm::length(soon) / pressed, kHalfIsFelt, "of the force before the cut is felt 50 ms after it");
   judge.atMost(degreesBetween(soon, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
                "from the new shape 50 ms after the cut");
@@ -97,7 +97,7 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
   judge.atMost(1e3 * early, kDelayUnnoticed, "that the old scene is left before the cut");
   judge.atMost(1e3 * late, kDelayUnnoticed, "that the old scene is felt after the cut");
   judge.atMost(100 * peakForce(between(ticks, 0.4, kDown)) / pressed, kNothingAdded,
-               "of the force before the cut, as a peak at the cut");
+               "of the force before the cut: peak at the cut");
   judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)),
                           challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0)),
                kForceMatches, "force off for a finger that comes from outside");

@@ -56,8 +56,8 @@ Verdict strokeStep(const Challenger& challenger, bool /*quick*/) {
   }
   Judge judge;
   judge.atMost(hung_mm, kHungPastEdge, "past the edge while the finger is still held up");
-  judge.atLeast(100 * against, kWallPushesAtLeast, "of the expected force of the wall, at least");
-  judge.atMost(100 * most, kWallPushesAtMost, "of the expected force of the wall, at most");
+  judge.atLeast(100 * against, kWallPushesAtLeast, "of the expected force of the wall: least one");
+  judge.atMost(100 * most, kWallPushesAtMost, "of the expected force of the wall: greatest one");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
@@ -82,7 +82,8 @@ Verdict thin(const Challenger& challenger, bool /*quick*/) {
     bounds.bounds(ticks, challenger.stiffness_n_per_mm);
   }
   Judge judge;
-  judge.atLeast(100 * least, kForceNotBelow, "of the expected force, 3 mm or more behind the front of a ridge");
+  judge.atLeast(100 * least, kForceNotBelow,
+                "of the expected force: least one 3 mm or more behind the front of a ridge");
   judge.add(bounds.verdict());
   return judge.verdict();
 }

@@ -221,7 +221,7 @@ TEST(Recordings, DepthThatLiesBesideTheFilmIsTakenAndSaid) {
   const Seen flat = open({.url = folder / "clip.mkv"});
   EXPECT_EQ(flat.failure, "");
   EXPECT_FALSE(flat.info.has_depth);
-  EXPECT_THAT(flat.info.notes, Contains(HasSubstr("no depth that can be read")));
+  EXPECT_THAT(flat.info.notes, Contains(HasSubstr("cannot be read as depth")));
 }
 
 // A hue reaches from near to far and has no unit.
