@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A source that is replaced is destroyed outside of the lock, since that joins its thread.
+// A source that is replaced or closed is destroyed outside of the lock: that joins threads, and may ask a server.
 #include "app/media/pairs/open_sources.h"
 
 #include <utility>
@@ -38,9 +38,10 @@ void OpenSources::dropDepth() noexcept {
 }
 
 void OpenSources::close() noexcept {
+  std::unique_ptr<TrackReader> color;
   std::unique_ptr<DepthSource> depth;
   const std::scoped_lock lock(mutex_);
-  color_.reset();
+  color_.swap(color);
   depth_.swap(depth);
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two tracks of one source: bounded queues, badly interleaved and short tracks, seeks that land too late.
+// Two tracks of one source: bounded queues, badly interleaved and short tracks, seeks that land too late; its end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <future>
 #include <vector>
 
+#include "app/media/pairs/open_sources.h"
 #include "app/media/tracks/track_reader.h"
 
 namespace relievo {
@@ -24,6 +27,10 @@ class ScriptedSource final : public MediaSource {
  public:
   explicit ScriptedSource(std::vector<Scripted> script, std::size_t late = 0)
       : script_(std::move(script)), late_(late) {}
+  ~ScriptedSource() override {
+    if (closing) closing();
+  }
+  std::function<void()> closing;
   std::size_t position = 0;
   int seeks = 0;
   std::size_t packet_bytes = 1;
@@ -402,6 +409,25 @@ TEST(TrackReader, WhatWasWaitingBeforeASeekTakesNoRoomAfterIt) {
   }
   EXPECT_EQ(film.next(1), 0);
   EXPECT_EQ(film.next(1), 40);
+}
+
+// Closing joins a decoder's threads and may ask a server; the player's loop interrupts and asks meanwhile.
+TEST(OpenSources, AnswerWhileOneIsClosed) {
+  OpenSources sources;
+  auto source = std::make_unique<ScriptedSource>(interleaved(1, 1));
+  std::future<bool> asked;
+  std::future_status answered = std::future_status::deferred;
+  source->closing = [&] {
+    asked = std::async(std::launch::async, [&] {
+      sources.interrupt();
+      return sources.waitsForColor(nullptr);
+    });
+    answered = asked.wait_for(std::chrono::seconds(5));
+  };
+  ASSERT_TRUE(sources.take(std::make_unique<TrackReader>(std::move(source), nullptr)).has_value());
+  sources.close();
+  EXPECT_EQ(answered, std::future_status::ready);
+  EXPECT_FALSE(asked.get());
 }
 
 }  // namespace
