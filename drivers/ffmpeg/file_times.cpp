@@ -3,13 +3,26 @@
 
 #include <algorithm>
 
+#include "drivers/ffmpeg/container.h"
 #include "platform/log.h"
+
+extern "C" {
+#include <libavformat/avformat.h>
+}
 
 namespace relievo::ffmpeg {
 namespace {
 
 constexpr Duration kReordering = std::chrono::seconds(1);  // behind a jump FFmpeg gives out decoding times that fall
 constexpr Duration kAnyGap = std::chrono::hours(24 * 365);
+// A container's duration may include a last picture longer than its packet, or sound that a codec adds at the end.
+constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
+constexpr std::int64_t kTailBytes = 65536;  // tables and padding behind the last packet of a multiplex are shorter
+
+// As of now; 0 if unknown.
+std::int64_t bytesOf(const AVFormatContext& context) noexcept {
+  return context.pb == nullptr ? 0 : std::max<std::int64_t>(avio_size(context.pb), 0);
+}
 
 }  // namespace
 
@@ -34,6 +47,43 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
   } else if (packet.pts) {
     *packet.pts += mended_by_;
   }
+}
+
+void FileEnd::open(const AVFormatContext& context, Duration start) noexcept {
+  *this = {};
+  start_ = start;
+  bytes_ = bytesOf(context);
+}
+
+void FileEnd::seek(MediaTime target) noexcept {
+  latest_ = target.time_since_epoch();
+  missing_ = Duration(0);
+  read_ = 0;
+}
+
+void FileEnd::note(const Packet& packet, Duration length, std::int64_t position) noexcept {
+  const auto begin = packet.pts ? packet.pts : packet.dts;
+  if (begin) latest_ = std::max(latest_, begin->time_since_epoch() + length);
+  if (position >= 0) read_ = std::max(read_, position + static_cast<std::int64_t>(packet.bytes));
+}
+
+// A length that the container states counts with a single programme only. A length that FFmpeg took from the last times
+// of a file counts if the file has become shorter since.
+void FileEnd::reach(const AVFormatContext& context) noexcept {
+  const bool one = context.nb_programs < 2;
+  const bool stated = context.duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
+  const bool told = one && context.duration > 0 && (stated || bytesOf(context) < bytes_);
+  const Duration end = told ? lengthOf(context, start_) : Duration(0);
+  const bool is_multiplex = one && (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
+  missing_ = std::max(end - latest_, is_multiplex ? unread() : Duration(0));
+  if (missing_ <= kWholeWithin) missing_ = Duration(0);
+}
+
+// What lies behind the last packet and is none, as long as that many bytes last on the average.
+Duration FileEnd::unread() const noexcept {
+  const std::int64_t rest = bytes_ - read_;
+  if (read_ <= 0 || rest < kTailBytes || rest < bytes_ / 50) return Duration(0);
+  return fromSeconds(toSeconds(latest_) * static_cast<double>(rest) / static_cast<double>(read_));
 }
 
 }  // namespace relievo::ffmpeg

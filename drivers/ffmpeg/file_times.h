@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of a file that was cut together without care.
+// Times of a file that was cut together without care, or was cut off.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 
 #include "hal/media/continuous_time.h"
 #include "hal/media/media_source.h"
+
+struct AVFormatContext;
 
 namespace relievo::ffmpeg {
 
@@ -23,6 +26,30 @@ class FileTimes {
   std::map<int, MediaTime> highest_;  // decoding time of each stream since its last jump
   ContinuousTime continuous_;
   Duration mended_by_{0};  // since `begin`
+};
+
+// How much of a film is missing behind what could be read.
+class FileEnd {
+ public:
+  // As the file was opened; `start` is the container's (startOf).
+  void open(const AVFormatContext& context, Duration start) noexcept;
+  // What is skipped is not missing.
+  void seek(MediaTime target) noexcept;
+  // `position` of the packet in the file, in bytes; below 0 if unknown.
+  void note(const Packet& packet, Duration length, std::int64_t position) noexcept;
+  // After the last packet. The container of `open`, with times.
+  void reach(const AVFormatContext& context) noexcept;
+  // 0 until the end was reached, for a whole film, and if unknown.
+  [[nodiscard]] Duration missing() const noexcept { return missing_; }
+
+ private:
+  [[nodiscard]] Duration unread() const noexcept;
+
+  Duration start_{0};
+  Duration latest_{0};  // end of all packets read so far, from `start_` on
+  Duration missing_{0};
+  std::int64_t bytes_ = 0;  // 0: unknown
+  std::int64_t read_ = 0;   // to here, in bytes
 };
 
 }  // namespace relievo::ffmpeg

@@ -14,6 +14,7 @@
 #include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "hal/media/video_decoder.h"
+#include "platform/log.h"
 
 namespace relievo::ffmpeg {
 namespace {
@@ -54,7 +55,9 @@ Result<Input::Opened> Input::open(const std::string& url) {
   context->opaque = this;
   open_file_ = std::exchange(context->io_open, openCounted);
   close_file_ = std::exchange(context->io_close2, closeAny);
-  opens_ = 0;
+  url_ = url;
+  opens_ = lost_ = 0;
+  tells_lost_ = false;
   AVIOContext* file = nullptr;
   if (const auto opened = openFile(*address, file); !opened) {
     avformat_free_context(context);
@@ -96,11 +99,28 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
                        AVDictionary** options) {
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
-  const std::string path = self.reads_files_ ? localPathOf(url) : "";
-  if (path.empty()) return self.open_file_(context, file, url, flags, options);
-  const auto opened = openLocalFile(path, self.watch_);
+  const int opened = self.openAny(context, file, url, flags, options);
+  if (opened < 0 && self.tells_lost_ && !self.watch_.cancelled()) self.tellLost(url);
+  return opened;
+}
+
+int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options) {
+  const std::string path = reads_files_ ? localPathOf(url) : "";
+  if (path.empty()) return open_file_(context, file, url, flags, options);
+  const auto opened = openLocalFile(path, watch_);
   if (opened) *file = *opened;
   return opened ? 0 : codeOf(opened.error());
+}
+
+// FFmpeg passes over a segment of a list. Of many, the tenth, hundredth, .. are told.
+void Input::tellLost(const char* part) {
+  ++lost_;
+  int told = 1;
+  while (told < lost_) told *= 10;
+  if (told != lost_) return;
+  if (lost_ == 1)
+    log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part);
+  else log(LogLevel::Warning, "media", "%s: %d of its parts cannot be opened and are left out", url_.c_str(), lost_);
 }
 
 int Input::closeAny(AVFormatContext* context, AVIOContext* file) {

@@ -33,8 +33,12 @@ class Input {
   };
   // A container that was opened before stays open.
   [[nodiscard]] Result<Opened> open(const std::string& url);
-  // The container may open as many files and addresses again as it could at first.
-  void countAnew() noexcept { opens_ = 0; }
+  // Before each read: the container may open as many files and addresses again as it could at first, and those of them
+  // that cannot be opened are told, as parts of the film.
+  void beginReading() noexcept {
+    opens_ = 0;
+    tells_lost_ = true;
+  }
   [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }
   void closePipe() noexcept { pipe_.reset(); }
 
@@ -43,13 +47,18 @@ class Input {
   [[nodiscard]] Result<void> openFile(const Address& address, AVIOContext*& file);
   static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
                          AVDictionary** options);
+  int openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options);
+  void tellLost(const char* part);
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
   Watch& watch_;
   decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
   decltype(AVFormatContext::io_close2) close_file_ = nullptr;
+  std::string url_;
   bool reads_files_ = false;
   int opens_ = 0;
+  bool tells_lost_ = false;
+  int lost_ = 0;   // parts that could not be opened while it was read
   UniqueFd pipe_;  // outlives the container that reads from it
 };
 

@@ -35,8 +35,6 @@ constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save i
 constexpr std::size_t kTagPackets = 512;      // searched for a key frame of each stream
 constexpr std::size_t kFlowTagPackets = 128;  // of a real-time stream: about as many as opening has read
 constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
-// A container's duration may include a last picture longer than its packet, or sound that a codec adds at the end.
-constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 // A gap from lost data is waited out; in a real-time stream that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
 constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
@@ -62,7 +60,7 @@ class FfmpegSource final : public MediaSource {
     arrival_ = opened->arrival;
     timed_ = isTimed(context);
     start_ = startOf(context);
-    latest_end_ = Duration(0);
+    end_.open(context, start_);
     sought_ = false;
     times_.begin();
     chooseProgramme(context);
@@ -133,7 +131,7 @@ class FfmpegSource final : public MediaSource {
 
   Result<std::optional<Packet>> readPacket() override {
     watch_.begin(address_.flows() ? kFlowPatience : kReadPatience, lateReading(address_.way));
-    input_.countAnew();
+    input_.beginReading();
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     int damaged_reads = 0;
@@ -147,6 +145,7 @@ class FfmpegSource final : public MediaSource {
       } else if (got == AVERROR(EAGAIN) && !watch_.givesUp()) {
         std::this_thread::sleep_for(kNap);
       } else if (got != AVERROR_INVALIDDATA || ++damaged_reads >= kDamagedReads) {
+        if (timed_) end_.reach(*context_);
         return endOrError(got);
       }
     }
@@ -160,20 +159,8 @@ class FfmpegSource final : public MediaSource {
     return 0;
   }
 
-  void noteEnd(const Packet& packet, Duration length) noexcept {
-    const auto begin = packet.pts ? packet.pts : packet.dts;
-    if (begin) latest_end_ = std::max(latest_end_, begin->time_since_epoch() + length);
-  }
-
-  // Uses only a duration that the container itself states, and only with a single programme. A subtitle that begins
-  // before the place sought is not read, and may be what lasts to the film's end.
-  Duration missingTime() const noexcept override {
-    if (sought_ && hasSubtitles()) return Duration(0);
-    const bool told = timed_ && context_->nb_programs < 2 && context_->duration > 0 &&
-                      context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
-    const Duration missing = told ? lengthOf(*context_, start_) - latest_end_ : Duration(0);
-    return missing > kWholeWithin ? missing : Duration(0);
-  }
+  // A subtitle that begins before the place sought is not read, and may be what lasts to the film's end.
+  Duration missingTime() const noexcept override { return sought_ && hasSubtitles() ? Duration(0) : end_.missing(); }
 
   bool hasSubtitles() const noexcept {
     const std::span streams(context_->streams, context_->nb_streams);
@@ -206,7 +193,7 @@ class FfmpegSource final : public MediaSource {
     out.pts = timeOf(packet->pts, stream);
     out.dts = timeOf(packet->dts, stream);
     if (origin().longest_gap == Duration(0)) times_.mend(out, url_);
-    noteEnd(out, durationFrom(packet->duration, stream.time_base));
+    end_.note(out, durationFrom(packet->duration, stream.time_base), packet->pos);
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
     return out;
@@ -224,7 +211,7 @@ class FfmpegSource final : public MediaSource {
     watch_.begin(kReadPatience, lateReading(address_.way));
     ahead_.clear();
     times_.begin();
-    latest_end_ = target.time_since_epoch();  // what is skipped is not missing
+    end_.seek(target);
     const bool to_beginning = target <= MediaTime{};
     sought_ = !to_beginning;
     if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
@@ -266,10 +253,10 @@ class FfmpegSource final : public MediaSource {
   Input input_{watch_};
   FormatPtr context_;
   bool timed_ = true;
-  Duration start_{0};       // the container's start time
-  Duration latest_end_{0};  // of all packets read so far, from `start_` on
-  bool sought_ = false;     // since then, and not to the beginning
+  Duration start_{0};    // the container's start time
+  bool sought_ = false;  // since it was opened, and not to the beginning
   FileTimes times_;
+  FileEnd end_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
   int leading_stream_ = 0;

@@ -202,6 +202,57 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
   }
 }
 
+// 48 pictures are 2 s. A multiplex states no length: its last time was read when it was opened.
+TEST(FfmpegSource, TellsHowMuchIsMissingOfAMultiplexThatIsCutWhileItIsRead) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.ts", "a.mpg"}) {
+    const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
+    makeClip(folder / name, {large});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is whole";
+    ASSERT_TRUE(source->seek(MediaTime{}).has_value()) << name;
+    cutFile(folder / name, 0.5);
+    const auto packets = readAll(*source);
+    const double there = static_cast<double>(packets.size()) / 24;
+    EXPECT_LT(there, 1.7) << name;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.3) << name;
+  }
+}
+
+// As a copy leaves it that was broken off on a file system which had given it its size. 48 pictures are 2 s.
+TEST(FfmpegSource, TellsThatATransportStreamEndsInWhatIsNone) {
+  TemporaryFolder folder;
+  const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
+  makeClip(folder / "a.ts", {large});
+  const auto whole = std::filesystem::file_size(folder / "a.ts");
+  cutFile(folder / "a.ts", 0.3);
+  std::filesystem::resize_file(folder / "a.ts", whole);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+  const double there = static_cast<double>(readAll(*source).size()) / 24;
+  EXPECT_LT(there, 1);
+  EXPECT_GT(source->missing(), std::chrono::milliseconds(400)) << "by bytes, of which the first picture has the most";
+  EXPECT_LT(toSeconds(source->missing()), 2 - there);
+}
+
+// FFmpeg passes over a segment that it cannot open.
+TEST(FfmpegSource, TellsThatAPartOfAListIsGone) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.ts", {kH264});
+  std::filesystem::copy_file(folder / "a.ts", folder / "b.ts");
+  writeFile(folder / "list.m3u8",
+            "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\na.ts\n#EXTINF:2,\ngone.ts\n#EXT-X-DISCONTINUITY\n#EXTINF:2,"
+            "\nb.ts\n"
+            "#EXT-X-ENDLIST\n");
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "list.m3u8").has_value());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(readAll(*source).size(), 96U);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("list.m3u8: its part file:" + folder / "gone.ts"));
+}
+
 // 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
 // states.
 TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
