@@ -2,6 +2,7 @@
 // The player's side of the feed: requests and a queue under one mutex, which is never held while the film is read.
 #include "app/media/film_feed.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -123,6 +124,13 @@ std::optional<FramePair> FilmFeed::take() {
   queue_.pop_front();
   wake_.notify_all();
   return pair;
+}
+
+std::size_t FilmFeed::peekDepths(std::span<Frame> depths) const {
+  const std::scoped_lock lock(mutex_);
+  const std::size_t count = std::min(depths.size(), queue_.size());
+  for (std::size_t i = 0; i < count; ++i) depths[i] = queue_[i].depth;
+  return count;
 }
 
 std::optional<AudioChunk> FilmFeed::takeSound() {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -74,6 +75,8 @@ class FilmFeed {
   [[nodiscard]] Effort effort() const;
   // The next pair in order; nullopt if none is ready.
   [[nodiscard]] std::optional<FramePair> take();
+  // The depth of those that `take` would return next, into `depths`; returns how many there are. They stay queued.
+  [[nodiscard]] std::size_t peekDepths(std::span<Frame> depths) const;
   // The next samples in order; nullopt if none are ready.
   [[nodiscard]] std::optional<AudioChunk> takeSound();
   // The next subtitle that has been read; nullopt if there is none. After a seek some come again.

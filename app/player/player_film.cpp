@@ -186,7 +186,7 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const auto seen = screen_.show(film_.picture(), touch_.marks(), now);
+  const auto seen = screen_.show(film_.picture(), film_.coming(), touch_.marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
 }

@@ -22,4 +22,13 @@ struct DepthAround {
   bool expected = false;          // the film has depth and touch is on: an empty `present` is a fault
 };
 
+// The depth pictures that follow the one on the screen, as far as they are decoded. Frame i is that of the picture
+// i + 1 after it; empty if that has none, or none yet.
+struct DepthComing {
+  static constexpr std::size_t kMost = 8;
+  std::array<Frame, kMost> frames;
+  std::size_t count = 0;
+  bool last = false;  // no picture follows them
+};
+
 }  // namespace relievo

@@ -3,6 +3,7 @@
 #include "app/player/film/film_playback.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "app/depth_window/surface_window.h"
@@ -247,6 +248,18 @@ DepthAround FilmPlayback::depth() const {
   if (isLive()) around.felt = clock_.position(clock_source_.now());
   around.last = head_.last() && around.ahead_count == head_.ahead().size();
   return around;
+}
+
+// Behind the playhead's few the feed may have more, whose depth is not made yet where it comes from the views.
+DepthComing FilmPlayback::coming() const {
+  DepthComing coming;
+  for (const FramePair& pair : head_.ahead()) {
+    if (coming.count == DepthComing::kMost) return coming;
+    coming.frames[coming.count++] = pair.depth;
+  }
+  coming.count += feed_.peekDepths(std::span(coming.frames).subspan(coming.count));
+  coming.last = head_.last() && coming.count == head_.ahead().size();
+  return coming;
 }
 
 MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {

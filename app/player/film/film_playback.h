@@ -120,6 +120,8 @@ class FilmPlayback {
   [[nodiscard]] bool takeJump() noexcept { return std::exchange(jumped_, false); }
   // The depth for touch; empty at a rate over 1.
   [[nodiscard]] DepthAround depth() const;
+  // The depth of the pictures that come, for what is shown in front of it.
+  [[nodiscard]] DepthComing coming() const;
   [[nodiscard]] std::optional<ClockSample> clock() const noexcept { return clock_.sample(); }
   // When the next picture is due; MonotonicTime::max() while the film is paused.
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;

@@ -61,9 +61,10 @@ void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolu
   text_.wake(now);
 }
 
-Result<bool> FilmScreen::show(const FramePair& pair, const FingerMarks& fingers, MonotonicTime now) {
+Result<bool> FilmScreen::show(const FramePair& pair, const DepthComing& coming, const FingerMarks& fingers,
+                              MonotonicTime now) {
   picture_.setPair(pair);
-  noteCut(pair);
+  lookAhead(pair.depth, coming);
   const auto seen = draw(fingers, now);
   if (!seen || !*seen) {
     ++dropped_;
@@ -121,8 +122,8 @@ void FilmScreen::turnKeys(ScreenRows rows) {
 }
 
 void FilmScreen::jump() {
-  recent_.clear();
-  shots_.forget();
+  coming_.forget();
+  picture_.setAhead({});
   picture_.cut();
 }
 
@@ -132,15 +133,10 @@ void FilmScreen::delaySubtitles(Duration delay) {
 }
 
 // At a cut the subtitles may stand at another depth at once.
-void FilmScreen::noteCut(const FramePair& pair) {
-  constexpr std::size_t kRecent = 3;
-  if (subtitles().pictures().empty() || pair.depth.empty()) return jump();
-  const auto field = HeightField::make(pair.depth, calibration_, picture_.volume());
-  if (!field || (!recent_.empty() && recent_.back().time >= pair.depth.pts)) return;
-  if (recent_.size() == kRecent) recent_.pop_front();
-  recent_.push_back({.field = *field, .time = pair.depth.pts, .owner = pair.depth.owner});
-  shots_.mark(recent_);
-  if (recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot) picture_.cut();
+void FilmScreen::lookAhead(const Frame& depth, const DepthComing& coming) {
+  if (!subtitles().mayShow() || depth.empty()) return jump();
+  if (coming_.follow(depth, coming, calibration_, picture_.volume())) picture_.cut();
+  picture_.setAhead(coming_.ahead());
 }
 
 void FilmScreen::obey(const PlayerCommand& command) {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "app/depth_window/shots.h"
 #include "app/media/pair_reader.h"
 #include "app/player/control/command.h"
 #include "app/player/file_writer.h"
 #include "app/player/journal.h"
+#include "app/player/screen/coming_relief.h"
 #include "app/player/screen/picture.h"
 #include "app/player/screen/screen_text.h"
 #include "app/render/relief/stereo.h"
@@ -45,8 +45,9 @@ class FilmScreen {
   void announce(const AnnouncedFilm& film) { picture_.announce(film); }
   // What the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
-  // Draws a picture of the film. False if the screen is lost: the picture counts as dropped.
-  [[nodiscard]] Result<bool> show(const FramePair& pair, const FingerMarks& fingers, MonotonicTime now);
+  // Draws a picture of the film; `coming` follows it. False if the screen is lost: the picture counts as dropped.
+  [[nodiscard]] Result<bool> show(const FramePair& pair, const DepthComing& coming, const FingerMarks& fingers,
+                                  MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }
@@ -98,7 +99,7 @@ class FilmScreen {
 
  private:
   [[nodiscard]] Result<bool> draw(const FingerMarks& fingers, MonotonicTime now);
-  void noteCut(const FramePair& pair);
+  void lookAhead(const Frame& depth, const DepthComing& coming);
   void writeScreenshot(MonotonicTime now);
   void noteSaved(MonotonicTime now);
   void changeAspect(const std::string& word);
@@ -106,8 +107,7 @@ class FilmScreen {
 
   Picture picture_;
   DepthCalibration calibration_;
-  std::deque<TimedSurface> recent_;  // depth pictures, the newest last
-  ShotFinder shots_;
+  ComingRelief coming_;
   std::string screenshot_title_;                 // of the one that is due
   std::deque<std::future<std::string>> saving_;  // screenshots that are being written: what to tell of them
   ScreenText text_;

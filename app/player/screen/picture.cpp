@@ -132,6 +132,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     renderer_->setSubtitles(frame, subtitles_.pictures());
   }
   if (std::exchange(cut_, false)) renderer_->cut();
+  renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
   if (auto drawn = renderer_->draw(surface, fingers); !drawn) return drawn;

@@ -61,6 +61,8 @@ class Picture {
   void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }
   // The next picture does not continue this one.
   void cut() noexcept { cut_ = true; }
+  // What follows the picture that is set, for the subtitles; its reliefs must live until the next call.
+  void setAhead(const ReliefAhead& ahead) noexcept { ahead_ = ahead; }
   // The next `show` keeps what it shows, without the display over it, for `takeCapture`.
   struct Capture {
     int width = 0, height = 0;
@@ -131,6 +133,7 @@ class Picture {
   ScreenWords words_;
   SubtitleWords subtitles_;
   Duration subtitle_delay_{0};
+  ReliefAhead ahead_;
   bool cut_ = false, capture_due_ = false;
   std::optional<Capture> captured_;
   bool uploaded_ = false;

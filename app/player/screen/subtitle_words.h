@@ -30,6 +30,8 @@ class SubtitleWords {
   // Another track or film.
   void forget();
   void show(bool shown) noexcept { shown_ = shown; }
+  // There are subtitles of the film, and they are to be seen.
+  [[nodiscard]] bool mayShow() const noexcept { return shown_ && (!seen_.empty() || !with_pictures_.empty()); }
   // Larger than the film has them, or smaller: 0.5 to 3.
   void changeSize(double by) noexcept;
   [[nodiscard]] double size() const noexcept { return size_; }

@@ -112,6 +112,10 @@ void SceneRenderer::cut() noexcept {
   impl_->words.cut();
 }
 
+void SceneRenderer::setAhead(const ReliefAhead& ahead) noexcept {
+  impl_->words.setAhead(ahead);
+}
+
 Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                      const DisplayVolume& volume, const Frame& right) {
   Impl& impl = *impl_;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/render/relief/coarse_relief.h"
 #include "app/render/relief/stereo.h"
 #include "app/render/text/text_picture.h"
 #include "app/scene/depth_calibration.h"
@@ -66,6 +67,8 @@ class SceneRenderer {
   void setSubtitles(const TextFrame& frame, const std::vector<TextPicture>& pictures);
   // The next picture does not continue the last one: the subtitles need not move smoothly.
   void cut() noexcept;
+  // What comes after the picture that is drawn next, for the subtitles; its reliefs must live until the next call.
+  void setAhead(const ReliefAhead& ahead) noexcept;
 
   // Uploads a pair; keeps a reference to the depth until the next one. Empty depth shows the colour as a flat picture
   // in the screen plane. Unsupported if the pixel format cannot be uploaded; the previous pair then stays.

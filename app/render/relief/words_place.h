@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "app/render/relief/coarse_relief.h"
 #include "app/render/relief/stereo.h"
 #include "app/render/relief/textured_vertex.h"
 
@@ -19,22 +20,27 @@ struct WordsBox {
 // Disparities are in pixels of a view: where the left eye sees a thing minus where the right eye sees it, positive in
 // front of the screen.
 //
-// The words follow the nearest relief under their box. Relief beside the box counts less the farther away it is, so
-// that a thing that comes from the side at up to kFastest lifts the words before it is under them: their disparity
-// changes by at most kStep a picture. A thing that comes faster, or rises faster, lifts them at once, since words
-// behind a thing that they cover hurt the eyes; `lifted` counts that.
+// The words follow the nearest relief under their box, and they begin to move before it is there: their disparity
+// changes by kStep a picture and no more, if what comes is known early enough. It is known
+// - where the pictures after the present one are read ahead (ReliefAhead): n of them leave room for n + 1 steps;
+// - where a thing is seen beside the box: it counts less the farther away it is, so that what comes from the side at up
+//   to kFastest of the width a picture (kFastestBlind without pictures ahead) lifts the words in time.
+// What rises higher than that, or enters the picture right beside the words, moves them faster than kStep, in equal
+// steps over the pictures that are left, since words behind a thing that they cover hurt the eyes; `lifted` counts
+// those pictures.
 class WordsPlace {
  public:
-  static constexpr double kStep = 1.0;          // px a picture
-  static constexpr double kSink = 0.25;         // px a picture, back towards the relief
-  static constexpr double kFastest = 1.0 / 40;  // of the picture's width a picture
-  static constexpr double kInFront = 0.002;     // of the picture's width: the disparity from the relief to the words
+  static constexpr double kStep = 1.0;               // px a picture
+  static constexpr double kSink = 0.25;              // px a picture, back towards the relief
+  static constexpr double kFastest = 1.0 / 5;        // of the picture's width a picture
+  static constexpr double kFastestBlind = 1.0 / 40;  // without pictures ahead
+  static constexpr double kInFront = 0.002;  // of the picture's width: the disparity from the relief to the words
 
   // Other words, or a cut: they may stand anywhere.
   void begin() noexcept { begins_ = true; }
-  // For the next picture. `indices`: three for each triangle of the surface.
+  // For the next picture. `indices`: three for each triangle of the surface. `ahead`: what comes after it.
   void follow(std::span<const TexturedVertex> vertices, std::span<const std::uint32_t> indices, const WordsBox& box,
-              const StereoSettings& stereo, double width_px, double pixels_per_mm);
+              const StereoSettings& stereo, double width_px, double pixels_per_mm, const ReliefAhead& ahead = {});
   // The picture is flat.
   void stayInScreen() noexcept { disparity_ = behind_ = 0; }
 
@@ -46,6 +52,9 @@ class WordsPlace {
   [[nodiscard]] double shiftPx(double eye_x_mm, const StereoSettings& stereo) const noexcept;
 
  private:
+  struct Needs;
+  void move(const Needs& needs) noexcept;
+
   double disparity_ = 0, behind_ = 0;
   bool begins_ = true;
   std::uint64_t lifted_ = 0;

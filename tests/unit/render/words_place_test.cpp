@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace relievo {
@@ -77,7 +78,7 @@ TEST(WordsPlace, OnlyWhatIsUnderOrNearTheBoxCounts) {
 // A block comes from the left at the fastest speed that is foreseen, passes under the words and goes away.
 TEST(WordsPlace, IsLiftedInTimeByWhatComesFromTheSide) {
   WordsPlace words;
-  const double step_mm = WordsPlace::kFastest * kWidthPx / kPixelsPerMm;
+  const double step_mm = WordsPlace::kFastestBlind * kWidthPx / kPixelsPerMm;
   double last = 0, highest = -100;
   for (int k = 0; k < 160; ++k) {
     Relief relief = wallAt(0);
@@ -95,6 +96,124 @@ TEST(WordsPlace, IsLiftedInTimeByWhatComesFromTheSide) {
   EXPECT_EQ(words.lifted(), 0u);
   EXPECT_GE(highest, disparityOf(40));
   EXPECT_LT(last, highest - 10) << "it sinks again";
+}
+
+// A film whose next pictures are known. `fill` tells the codes of a picture, 0 to 255 for 0 to 40 mm.
+class KnownAhead : public testing::Test {
+ protected:
+  static constexpr int kCols = 160, kRows = 90;
+  using Fill = std::function<std::uint8_t(int picture, double x_mm)>;
+
+  struct Moved {
+    double most_up = 0, most_down = 0, nearest_gap = 1e9, highest = -1e9, last = 0;
+    std::uint64_t lifted = 0;
+  };
+  static Moved play(int pictures, std::size_t ahead, const Fill& fill) {
+    const DisplayVolume volume = DisplayVolume::forPicture(kCols, kRows);
+    const GridMapping grid(volume, kCols, kRows);
+    const auto codeAt = [&](int picture, int c) { return fill(picture, grid.x(c)); };
+    std::vector<CoarseRelief> coarse;
+    for (int k = 0; k < pictures; ++k) coarse.push_back(coarseOf(k, volume, codeAt));
+    Moved moved;
+    WordsPlace words;
+    for (int k = 0; k < pictures; ++k) {
+      Relief relief;  // a strip for each column, exactly as high as its samples
+      for (int c = 0; c < kCols; ++c) {
+        relief.add(grid.x(c - 0.5), -45, grid.x(c + 0.5), 45, 40.0 * codeAt(k, c) / 255);
+      }
+      ReliefAhead coming{.more = k + static_cast<int>(ahead) + 1 < pictures};
+      for (std::size_t i = 1; i <= ahead && static_cast<std::size_t>(k) + i < coarse.size(); ++i) {
+        coming.coming[coming.count++] = {static_cast<int>(i), &coarse[static_cast<std::size_t>(k) + i]};
+      }
+      words.follow(relief.vertices, relief.indices, kBox, kStereo, kWidthPx, kPixelsPerMm, coming);
+      if (k > 0) moved.most_up = std::max(moved.most_up, words.disparity() - moved.last);
+      if (k > 0) moved.most_down = std::max(moved.most_down, moved.last - words.disparity());
+      moved.last = words.disparity();
+      moved.highest = std::max(moved.highest, moved.last);
+      moved.nearest_gap = std::min(moved.nearest_gap, words.disparity() - words.behind());
+    }
+    moved.lifted = words.lifted();
+    return moved;
+  }
+
+ private:
+  template <class CodeAt>
+  static CoarseRelief coarseOf(int picture, const DisplayVolume& volume, const CodeAt& codeAt) {
+    std::vector<std::uint8_t> codes;
+    for (int r = 0; r < kRows; ++r) {
+      for (int c = 0; c < kCols; ++c) codes.push_back(codeAt(picture, c));
+    }
+    Frame frame;
+    frame.width = kCols, frame.height = kRows;
+    frame.range = ColorRange::Full;
+    frame.planes[0] = {codes.data(), kCols};
+    frame.plane_count = 1;
+    return CoarseRelief::of(HeightField::make(frame, DepthCalibration{}, volume).value());
+  }
+};
+
+// A block comes from outside the picture and crosses it in ten pictures or more, 8 px of disparity before a wall.
+TEST_F(KnownAhead, FastEdgesLiftByAStepAPictureAtMost) {
+  const double near = disparityOf(40);
+  for (const double share : {1.0 / 40, 1.0 / 20, 1.0 / 10}) {
+    const auto moved = play(160, ReliefAhead::kMost, [&](int k, double x) -> std::uint8_t {
+      const double left = -200 + share * 160 * k;  // seen from x = -80 on
+      return x >= left && x < left + 60 ? std::uint8_t{255} : std::uint8_t{200};
+    });
+    EXPECT_LE(moved.most_up, WordsPlace::kStep + 1e-6) << share;
+    EXPECT_LE(moved.most_down, WordsPlace::kSink + 1e-9) << share;
+    EXPECT_GE(moved.nearest_gap, -1e-9) << share;
+    EXPECT_GE(moved.highest, near) << share;
+    EXPECT_EQ(moved.lifted, 0u) << share;
+  }
+}
+
+// A block rests at the picture's border, 34 px before a wall, and then darts below the words.
+TEST_F(KnownAhead, WhatDartsFromTheBorderIsMetWithoutAJump) {
+  const auto moved = play(80, ReliefAhead::kMost, [](int k, double x) -> std::uint8_t {
+    const double left = k < 40 ? -80 : -80 + 160.0 / 6 * (k - 40);
+    return x >= left && x < left + 20 ? std::uint8_t{255} : std::uint8_t{0};
+  });
+  EXPECT_LE(moved.most_up, WordsPlace::kStep + 1e-6);
+  EXPECT_GE(moved.nearest_gap, -1e-9);
+  EXPECT_GE(moved.highest, disparityOf(40));
+  EXPECT_EQ(moved.lifted, 0u);
+}
+
+// What rises under the words all at once, by no more than the pictures ahead leave steps for.
+TEST_F(KnownAhead, ARiseOfNineStepsIsMetInTime) {
+  const std::uint8_t low = 160, high = 222;
+  ASSERT_NEAR(disparityOf(40.0 * high / 255) - disparityOf(40.0 * low / 255), 8.5, 0.4);
+  const auto moved = play(40, ReliefAhead::kMost, [&](int k, double) { return k < 20 ? low : high; });
+  EXPECT_LE(moved.most_up, WordsPlace::kStep + 1e-6);
+  EXPECT_GE(moved.nearest_gap, -1e-9);
+  EXPECT_EQ(moved.lifted, 0u);
+}
+
+// 34 px at once, known 8 pictures before: nine equal steps of under 4 px, instead of one of 31.
+TEST_F(KnownAhead, AHugeRiseIsMetInEqualSteps) {
+  const auto wall = [](int k, double) { return k < 20 ? std::uint8_t{0} : std::uint8_t{255}; };
+  const auto moved = play(40, ReliefAhead::kMost, wall);
+  const double rise = disparityOf(40) - disparityOf(0);
+  EXPECT_GE(moved.nearest_gap, -1e-3);
+  EXPECT_LE(moved.most_up, rise / 9 + 1e-3);
+  EXPECT_GE(moved.most_up, (rise - kInFrontPx) / 9 - 1e-3);
+  EXPECT_LE(moved.lifted, 9u);
+  EXPECT_NEAR(play(40, 0, wall).most_up, rise - kInFrontPx, 1e-3) << "nothing known";
+}
+
+// Behind a cut nothing has to be met: the words may stand anywhere there.
+TEST_F(KnownAhead, WhatComesBehindACutDoesNotCount) {
+  WordsPlace words;
+  ReliefAhead coming{.more = false};
+  Relief relief = wallAt(0);
+  relief.add(50, -45, 80, 45, 40);  // beside the words
+  words.follow(relief.vertices, relief.indices, kBox, kStereo, kWidthPx, kPixelsPerMm, coming);
+  EXPECT_NEAR(words.disparity(), disparityOf(0) + kInFrontPx, 1e-3);
+  words.begin();
+  coming.more = true;
+  words.follow(relief.vertices, relief.indices, kBox, kStereo, kWidthPx, kPixelsPerMm, coming);
+  EXPECT_GT(words.disparity(), disparityOf(0) + kInFrontPx + 5);
 }
 
 TEST(WordsPlace, NeverStandsBehindEvenIfItMustJump) {

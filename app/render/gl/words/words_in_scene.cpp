@@ -52,7 +52,8 @@ void WordsInScene::find(const ReliefTriangles* relief, const EyeViews& eyes, con
   const double height_mm = width_mm * stereo.stretch / eyes.aspect;
   const WordsBox box{box_->left * width_mm, box_->bottom * height_mm, box_->right * width_mm, box_->top * height_mm};
   place_.follow({relief->vertices().data(), relief->vertices().size()},
-                {relief->indices().data(), 3 * relief->surfaceTriangles()}, box, stereo, width_px, eyes.pixels_per_mm);
+                {relief->indices().data(), 3 * relief->surfaceTriangles()}, box, stereo, width_px, eyes.pixels_per_mm,
+                ahead_);
 }
 
 void WordsInScene::draw(const EyeView& view, const StereoSettings& stereo) const {

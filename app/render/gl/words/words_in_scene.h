@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/render/gl/words/overlay.h"
+#include "app/render/relief/coarse_relief.h"
 #include "app/render/relief/relief_triangles.h"
 #include "app/render/relief/stereo.h"
 #include "app/render/relief/words_place.h"
@@ -27,6 +28,8 @@ class WordsInScene {
   // Finds their place in the present picture, once, so that a picture that is drawn again shows them where they were.
   // Null: the picture is flat.
   void find(const ReliefTriangles* relief, const EyeViews& eyes, const StereoSettings& stereo);
+  // What comes after the picture that `find` gets; its reliefs must live until the next call.
+  void setAhead(const ReliefAhead& ahead) noexcept { ahead_ = ahead; }
   // Into the viewport that is set, which is the view's.
   void draw(const EyeView& view, const StereoSettings& stereo) const;
 
@@ -36,6 +39,7 @@ class WordsInScene {
   Overlay overlay_;
   std::optional<WordsBox> box_;  // in the screen plane, as shares of the view
   WordsPlace place_;
+  ReliefAhead ahead_;
   bool due_ = false;
 };
 
