@@ -67,12 +67,13 @@ void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::s
   if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
 }
 
-// After the last track comes none.
+// After the last track comes none. Where the present one is hidden, it is shown again.
 void Player::nextWords(double number, MonotonicTime now) {
   const FilmInfo& info = film_.info();
   std::optional<std::size_t> next;
   if (number > 0) next = static_cast<std::size_t>(number) - 1;
   else if (number == 0 && !info.words && !info.subtitles.empty()) next = 0;
+  else if (number == 0 && info.words && !words_shown_) next = info.words;
   else if (number == 0 && info.words && *info.words + 1 < info.subtitles.size()) next = *info.words + 1;
   chooseTracks(info.sound, next, now);
   words_shown_ = next.has_value();

@@ -217,6 +217,8 @@ void PlayerHabits::subtitles() {
   EXPECT_TRUE(until([&] { return !hasWords(150, 185); }));
   expectAfter("v", "subtitles", "1 of 2, de, film.de.srt");
   EXPECT_TRUE(until([&] { return hasWords(150, 185); })) << "above the bar of the paused film";
+  expectAfter("v", "subtitles", "off");
+  expectAfter("j", "subtitles", "1 of 2, de, film.de.srt");  // what was hidden, before the next
   expectAfter("j", "subtitles", "2 of 2, en, film.en.srt");
   EXPECT_TRUE(until([&] { return hasWords(150, 185); }));
   expectAfter("z", "subtitle_delay_s", -0.1);
