@@ -82,6 +82,9 @@ ScreenFacts Player::facts() const {
   for (std::size_t i = 0; i < touch_.fingers().size(); ++i) {
     fingers[i] = fingerFacts(touch_.fingers()[i].device(), screen_.fingers()[i], screen_.volume());
   }
+  const auto shelf_place = placeOnShelf();
+  const auto place = shelf_place ? browser_->shelf().placeInSection(*shelf_place)
+                                 : FilmShelf::Place{programme_.present() + 1, programme_.size()};
   const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
   return {.title = film.title.empty() ? titleOf(film.url) : film.title,
           .position_s = toSeconds(position),
@@ -91,8 +94,8 @@ ScreenFacts Player::facts() const {
           .held = film_.held(),
           .rate = film_.rate(),
           .loop = programme_.loops(),
-          .film = programme_.present() + 1,
-          .films = programme_.size(),
+          .film = place.number,
+          .films = place.of,
           .stereo = screen_.stereo(),
           .has_depth = film_.info().has_depth,
           .fingers = fingers,

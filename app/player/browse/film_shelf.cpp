@@ -61,6 +61,11 @@ const ShelfFilm& FilmShelf::film(std::size_t film) const noexcept {
   return sections_[section].films[number];
 }
 
+FilmShelf::Place FilmShelf::placeInSection(std::size_t film) const noexcept {
+  const auto [section, number] = placeOf(sections_, film);
+  return {.number = number + 1, .of = sections_[section].films.size()};
+}
+
 void FilmShelf::selectBy(std::ptrdiff_t films) noexcept {
   select(static_cast<std::size_t>(std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(selected_) + films, 0)));
 }

@@ -35,6 +35,11 @@ class FilmShelf {
   [[nodiscard]] const std::vector<ShelfSection>& sections() const noexcept { return sections_; }
   // From 0 on, over all sections; 0 if there is none.
   [[nodiscard]] std::size_t selected() const noexcept { return selected_; }
+  // Its number in its section, from 1 on, and how many films that has; `film` below `size`.
+  struct Place {
+    std::size_t number = 0, of = 0;
+  };
+  [[nodiscard]] Place placeInSection(std::size_t film) const noexcept;
   // `film` below `size`.
   [[nodiscard]] const ShelfFilm& film(std::size_t film) const noexcept;
 

@@ -52,6 +52,8 @@ ScreenList viewOf(const FilmShelf& shelf, const PosterOf& poster, const std::str
     list.message = empty;
     return list;
   }
+  const FilmShelf::Place place = shelf.placeInSection(shelf.selected());
+  list.number = place.number, list.of = place.of;
   std::size_t number = 0;
   double middle = 0;
   const double whole = walk(shelf, [&](const ShelfSection&, const ShelfFilm* film, double top) {

@@ -76,7 +76,7 @@ void addList(Script& script, const ScreenList& list, const std::string& help_key
   script.box({0, 0, script.width(), kScreenRows}, kBackground, 1);
   script.text("Films", 7, kMargin, kHeadingTop, kHeadingSize);
   if (list.films > 0) {
-    script.text(print("%zu of %zu", list.selected + 1, list.films), 9, script.width() - kMargin, 34, 24, kGray);
+    script.text(print("%zu of %zu", list.number, list.of), 9, script.width() - kMargin, 34, 24, kGray);
   }
   for (const ScreenListRow& row : list.rows) {
     if (!row.film) {

@@ -33,6 +33,7 @@ struct ScreenList {
 
   std::vector<ScreenListRow> rows;  // those that find room, from the top down
   std::size_t selected = 0, films = 0;
+  std::size_t number = 0, of = 0;      // of the selected film in its section, from 1 on, and how many films that has
   double before = 0, shown = 1;        // of the whole list: what lies above the rows, and the rows, in shares
   std::string message;                 // in place of rows
   std::optional<std::size_t> pointed;  // the film that the mouse is over

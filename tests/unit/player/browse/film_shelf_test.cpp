@@ -39,6 +39,17 @@ TEST(FilmShelf, SelectionStopsAtBothEnds) {
   EXPECT_EQ(shelf.film(shelf.selected()).title, "f2");
 }
 
+TEST(FilmShelf, AFilmIsCountedInItsSection) {
+  FilmShelf shelf;
+  shelf.put(sections("f2", 3));
+  const auto recent = shelf.placeInSection(0), last = shelf.placeInSection(3);
+  EXPECT_EQ(std::pair(recent.number, recent.of), std::pair(std::size_t{1}, std::size_t{1}));
+  EXPECT_EQ(std::pair(last.number, last.of), std::pair(std::size_t{3}, std::size_t{3}));
+  shelf.select(2);
+  const ScreenList view = viewOf(shelf, {}, "", ScreenList::kBottom);
+  EXPECT_EQ(std::pair(view.number, view.of), std::pair(std::size_t{2}, std::size_t{3})) << "f1 of the videos";
+}
+
 TEST(FilmShelf, TheSelectedFilmStaysSelectedWhenOthersComeAndGo) {
   FilmShelf shelf;
   shelf.put(sections("f2", 3));

@@ -20,6 +20,7 @@ constexpr double kAspect = 16.0 / 9;
 ScreenList list() {
   ScreenList list;
   list.films = 2;
+  list.number = list.of = 2;
   list.selected = 1;
   list.rows = {{.title = "Videos", .top = 80},
                {.title = "one", .detail = "0:30 of 2:00", .film = 0, .top = 126, .left = 0.25},

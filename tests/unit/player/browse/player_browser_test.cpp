@@ -150,6 +150,8 @@ TEST_F(PlayerWithAList, ProgramsSeeItAndChooseFromIt) {
   EXPECT_EQ(list["films"][0],
             (json{{"section", "Videos"}, {"title", "a"}, {"source", videos() + "/a.mkv"}, {"left_s", nullptr}}));
   EXPECT_EQ(answers[4]["state"], "opening");
+  EXPECT_EQ(answers[4]["film"], 1);
+  EXPECT_EQ(answers[4]["films"], 2);
   EXPECT_TRUE(answers[4]["list"].is_null());
   EXPECT_EQ(bench_.states(), "boot idle browsing opening idle browsing idle");
 }
