@@ -92,6 +92,7 @@ Outcome<void> Player::run(const std::atomic<bool>& stop) {
     if (alive()) touch_.sleepUntil(nextWake(parts_.clock.now()));
   }
   finish(parts_.clock.now());
+  if (missed_) return std::unexpected(*missed_);
   if (failure_) return std::unexpected(*failure_);
   return {};
 }

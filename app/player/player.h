@@ -80,8 +80,9 @@ class Player {
   Player(PlayerConfig config, PlayerParts parts);
   ~Player();
 
-  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once. Fails for a lost display and
-  // when the last film could not be played, not for one before it in a list: that is in the report.
+  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once. Fails for a lost display,
+  // and when the last film or one of those in the configuration could not be played; those after it were played all the
+  // same. One of a list's only counts if it was the last: it is in the report.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
   // changes nothing.
@@ -194,6 +195,7 @@ class Player {
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens
+  std::optional<Failure> missed_;   // likewise, of the first of those that were asked for by name
   bool display_failed_ = false;     // no other film can be played either
   bool quitting_ = false;
   std::optional<MonotonicTime> ended_;

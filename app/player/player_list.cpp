@@ -74,10 +74,14 @@ void Player::endFilm(MonotonicTime now) {
   stopFilm(now);
 }
 
-// Opens another film of the list after one that failed. A list of which a film was seen has not failed.
+// Opens another film of the list after one that failed. A list of which a film was seen has not failed, unless its
+// films were asked for by name: then one that is missing counts.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();
+  const bool named = programme_.named() && !config_.stays && !returnsToBrowser();
+  if (named && !missed_) missed_ = failure_;
+  if (!other && named) return;
   if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser()) return;  // it ends with that failure
   const std::string what = failure_->thing + ": " + failure_->error.message;
   log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");

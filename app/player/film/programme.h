@@ -54,6 +54,8 @@ class Programme {
   [[nodiscard]] Way way() const noexcept { return way_; }
   // A film of this list was shown: the list as a whole has not failed.
   [[nodiscard]] bool seenOne() const noexcept { return seen_one_; }
+  // All its films are those of `begin`: none comes from a list.
+  [[nodiscard]] bool named() const noexcept { return lists_ == 0; }
   // `begin` has been called.
   [[nodiscard]] bool asked() const noexcept { return asked_; }
   [[nodiscard]] bool loops() const noexcept { return loop_; }

@@ -121,6 +121,20 @@ TEST_F(PlayerLists, SeveralSourcesArePlayedOneAfterTheOther) {
   EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
 }
 
+// Not so in a list that another program has made.
+TEST_F(PlayerLists, AMissingOneOfSeveralSourcesIsAFailureAfterTheOthers) {
+  for (const char* missing : {"film", "b", "c"}) {
+    bench_.sources = {{"film", PlayerBench::film(25)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
+    bench_.sources.erase(missing);
+    bench_.config.more = {"b", "c"};
+    const auto played = bench_.run();
+    EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
+    EXPECT_EQ(bench_.report.frames_shown, 50u) << missing;
+    ASSERT_FALSE(played) << missing;
+    EXPECT_EQ(played.error().thing, missing);
+  }
+}
+
 TEST_F(PlayerLists, AFilmThatCannotBePlayedIsPassedOver) {
   aList();
   bench_.sources.erase("./b");
