@@ -36,7 +36,11 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
     SDL_GetWindowPosition(window_, &before_.x, &before_.y);
     SDL_GetWindowSize(window_, &before_.w, &before_.h);
   }
+  int left = 0, top = 0;
+  SDL_GetWindowPosition(window_, &left, &top);
   SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
+  // SDL has moved the mouse to its old place in the window: back to where it is on the screen.
+  if (SDL_GetMouseFocus() == window_) SDL_WarpMouseGlobal(left + mouse_x_, top + mouse_y_);
   const bool unanswered = fill_asked_.has_value();  // SDL may have a size that the window never got
   fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
   if (!fill && unanswered) leaveByHand();
@@ -68,16 +72,16 @@ void WindowDisplay::leaveByHand() noexcept {
   SDL_SetWindowPosition(window_, before_.x, before_.y);
 }
 
-// Larger on a desktop that draws everything larger. Smaller in its own shape where it has not so much room; a frame
-// around the window takes some of it.
+// Larger on a desktop that draws everything larger. Smaller in its own shape where it has not so much room: a frame
+// and a title around the window, of up to 1/14 of a screen 600 high, take some of what the desktop's bars leave.
 void WindowDisplay::takeSize(int width, int height) noexcept {
-  constexpr double kRoom = 0.95;
+  constexpr double kRoomAcross = 0.95, kRoomDown = 0.92;
   const int enlarged = desktopScale();
   width *= enlarged;
   height *= enlarged;
   SDL_Rect room{};
   if (SDL_GetDisplayUsableBounds(SDL_GetWindowDisplayIndex(window_), &room) == 0) {
-    const double scale = std::min({1.0, kRoom * room.w / width, kRoom * room.h / height});
+    const double scale = std::min({1.0, kRoomAcross * room.w / width, kRoomDown * room.h / height});
     width = std::max(1, static_cast<int>(std::lround(scale * width)));
     height = std::max(1, static_cast<int>(std::lround(scale * height)));
   }

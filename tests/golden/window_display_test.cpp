@@ -295,6 +295,20 @@ TEST_F(WindowDisplay, OtherMouseButtonsAreKeys) {
   }
 }
 
+// As for the list of films, before there is a film. The screen is 640 x 480.
+TEST_F(WindowDisplay, BeforeAFilmItFitsTheScreenInItsShape) {
+  const auto other = makeWindowDisplay(std::make_shared<WindowInput>(), clock_);
+  ASSERT_TRUE(other->open({.width = 1280, .height = 720, .film_size = true}));
+  other->announce({"the list", 0, 0});
+  ASSERT_TRUE(other->beginFrame() && other->present());
+  const unsigned long window = screen_->find("the list - relievo");
+  EXPECT_TRUE(until([&] { return screen_->place(window)->width == 608 && screen_->place(window)->height == 342; }))
+      << screen_->place(window)->width;
+  other->announce({"a tall film", 1000, 1000});
+  EXPECT_TRUE(until([&] { return screen_->place(window)->height == 442; })) << screen_->place(window)->height;
+  EXPECT_EQ(screen_->place(window)->width, 442) << "a title of 38 pixels finds room";
+}
+
 TEST_F(WindowDisplay, WithAFilmsSizeItComesUpWithTheFirstFrame) {
   const auto other = makeWindowDisplay(std::make_shared<WindowInput>(), clock_);
   ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
