@@ -45,6 +45,7 @@ struct DisplayConfig {
   StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
   bool other_stereo = false;                 // if the screen does not support `stereo`: the best signal that it does
   bool film_size = false;                    // a window takes the size of each film instead (see `announce`)
+  bool fits_desktop = false;                 // a window is made smaller, in its shape, where the desktop has less room
 };
 
 // The film that a window is for.

@@ -140,6 +140,7 @@ class Player {
   void followDevice();
   void showPicture(MonotonicTime now);
   void feedTouch();
+  [[nodiscard]] FingerMarks marks();
 
   // player_sound.cpp: sound and words
   [[nodiscard]] bool obeySound(const PlayerCommand& command, MonotonicTime now);

@@ -171,7 +171,7 @@ void Player::followClock(MonotonicTime now) {
   if (pictures > 0) screen_.skip(shows ? pictures - 1 : pictures);
   if (shows) {
     showPicture(now);
-  } else if (auto drawn = screen_.redraw(touch_.marks(), film_.nextPicture(now), now); !drawn) {
+  } else if (auto drawn = screen_.redraw(marks(), film_.nextPicture(now), now); !drawn) {
     failDrawing(drawn.error());
   }
   if (state_ == PlayerState::Playing) followProgress(film_.going(now), now);
@@ -186,9 +186,14 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const auto seen = screen_.show(film_.picture(), film_.coming(), touch_.marks(), now);
+  const auto seen = screen_.show(film_.picture(), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
+}
+
+// The fingers, as far as there is something to feel.
+FingerMarks Player::marks() {
+  return film_.info().has_depth ? touch_.marks() : FingerMarks{};
 }
 
 void Player::feedTouch() {

@@ -56,7 +56,7 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
                            (film_size_ ? SDL_WINDOW_HIDDEN : SDL_WINDOW_SHOWN));
   if (window_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
   SDL_SetWindowData(window_, kWindowOwner, this);
-  if (film_size_) takeSize(config.width, config.height);
+  if (film_size_ || config.fits_desktop) takeSize(config.width, config.height);
   context_ = SDL_GL_CreateContext(window_);
   if (context_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
   paced_ = SDL_GL_SetSwapInterval(1) == 0;

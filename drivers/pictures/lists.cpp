@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostLines = 1'000'000;
 constexpr const char* kFormat =
-    "is no list of pictures; each line must be TIME PICTURE TIME PICTURE, as in associations.txt";
+    "is a text, not a film, and lists no pictures either; give a film, or lines TIME PICTURE TIME PICTURE";
 
 std::vector<std::string_view> wordsOf(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r,";

@@ -31,7 +31,7 @@ constexpr Label kOnKeyboards[] = {
     {KEY_INSERT, "Insert"},  {KEY_DELETE, "Delete"},
     {KEY_PAUSE, "Pause"},    {KEY_CAPSLOCK, "Caps Lock"},
     {KEY_SYSRQ, "Print"},    {KEY_COMPOSE, "Menu"},
-    {KEY_DOT, "."},          {KEY_COMMA, ","},
+    {KEY_DOT, ". (dot)"},    {KEY_COMMA, ", (comma)"},
     {KEY_LEFTBRACE, "["},    {KEY_RIGHTBRACE, "]"},
     {KEY_SEMICOLON, ";"},    {KEY_APOSTROPHE, "'"},
     {KEY_GRAVE, "`"},        {KEY_BACKSLASH, "\\"},

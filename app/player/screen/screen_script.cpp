@@ -59,7 +59,7 @@ void addTimes(Script& script, const ScreenBar& bar) {
   script.text(times[0], 7, kMargin, kTimesTop, kTimesSize);
   const double room = inner - kLetterOfSize * kTimesSize * (static_cast<double>(times[0].size()) + 2);
   if (room < kFewest * kLetterOfSize * kTimesSize) return;
-  const auto status = folded(bar.status, cellsIn(room, kTimesSize), 1);
+  const auto status = folded(shortened(bar.status, cellsIn(room, kTimesSize)), cellsIn(room, kTimesSize), 1);
   if (!status.empty()) script.text(status[0], 9, script.width() - kMargin, kTimesTop, kTimesSize, kGray);
 }
 

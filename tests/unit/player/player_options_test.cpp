@@ -89,6 +89,16 @@ TEST(Options, OnADesktopItTakesAWindowOfTheFilmsSizeAndTheMouse) {
       parse({"film.mkv", "--size", "640x360"}, machineWith(true, true)).options->play.player.display.film_size);
 }
 
+TEST(Options, TheWindowOfTheListFitsTheDesktopUnlessASizeIsAskedFor) {
+  const auto fits = [](const std::vector<const char*>& words) {
+    return parse(words, machineWith(true, true)).options->play.player.display.fits_desktop;
+  };
+  EXPECT_TRUE(fits({}));
+  EXPECT_TRUE(fits({"play", "--films", "/films"}));
+  EXPECT_FALSE(fits({"play", "--size", "1280x720"}));
+  EXPECT_FALSE(fits({"film.mkv"})) << "it takes the film's size";
+}
+
 TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   ::setenv("HOME", "/home/anna", 1);
   ::unsetenv("XDG_VIDEOS_DIR");
