@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/stereo/quick/small_view.h"
+
 namespace relievo {
 namespace {
 
@@ -42,12 +44,12 @@ bool hasEvenSides(const DisparityMap& map, int r, int begin, int end) {
 }
 
 // A run belongs to one side as a whole.
-void voteOnRun(const ViewPicture& left, int r, int begin, int end, EyeVotes& votes) {
-  const Color before = meanOf(left, r, begin - kBeside, begin), after = meanOf(left, r, end, end + kBeside);
+void voteOnRun(const ViewPicture& view, int r, int begin, int end, EyeVotes& votes) {
+  const Color before = meanOf(view, r, begin - kBeside, begin), after = meanOf(view, r, end, end + kBeside);
   if (between(before, after) < kLeastUnlike) return;
   int like_before = 0, like_after = 0;
   for (int c = begin; c < end; ++c) {
-    const Color here = meanOf(left, r, c, c + 1);
+    const Color here = meanOf(view, r, c, c + 1);
     const float to_before = between(here, before), to_after = between(here, after);
     if (to_after > kTold * to_before) ++like_before;
     if (to_before > kTold * to_after) ++like_after;
@@ -55,6 +57,43 @@ void voteOnRun(const ViewPicture& left, int r, int begin, int end, EyeVotes& vot
   const auto run = static_cast<float>(end - begin);
   if (static_cast<float>(like_before) >= kMost * run) votes.in_order += static_cast<std::uint64_t>(like_before);
   if (static_cast<float>(like_after) >= kMost * run) votes.swapped += static_cast<std::uint64_t>(like_after);
+}
+
+// The right view's own, in a mirror: of what the left view has as well.
+DisparityMap mirroredRight(const DisparityMap& map) {
+  constexpr float kAgree = 1;  // pixels
+  DisparityMap result(map.cols, map.rows);
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c) {
+      const float found = map.from_right[map.at(c, r)];
+      const std::size_t i = result.at(map.cols - 1 - c, r);
+      result.pixels[i] = found;
+      if (!std::isfinite(found)) continue;
+      const int there = nearest(static_cast<float>(c) + found);
+      const bool agrees = there >= 0 && there < map.cols && map.seen[map.at(there, r)] != 0 &&
+                          std::abs(map.pixels[map.at(there, r)] - found) <= kAgree;
+      result.seen[i] = agrees ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+EyeVotes voteOnView(const DisparityMap& map, const ViewPicture& view) {
+  EyeVotes votes;
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = kBeside; c < map.cols - kBeside; ++c) {
+      if (map.seen[map.at(c, r)] != 0) continue;
+      int end = c;
+      while (end < map.cols && map.seen[map.at(end, r)] == 0) ++end;
+      const bool inside = end + kBeside <= map.cols && map.seen[map.at(c - 1, r)] != 0;
+      const float rise = inside ? map.pixels[map.at(end, r)] - map.pixels[map.at(c - 1, r)] : 0;
+      const auto run = static_cast<float>(end - c);
+      if (rise >= kStep && end - c >= kLeastRun && run < 2 * rise && rise < 2 * run && hasEvenSides(map, r, c, end))
+        voteOnRun(view, r, c, end, votes);
+      c = end;
+    }
+  }
+  return votes;
 }
 
 }  // namespace
@@ -66,25 +105,16 @@ EyeVotes& EyeVotes::operator+=(const EyeVotes& other) noexcept {
 }
 
 bool EyeVotes::tell(std::uint64_t votes, std::uint64_t others) noexcept {
-  constexpr std::uint64_t kLeast = 100;
-  return votes > kLeast && 2 * votes > 3 * others;
+  constexpr std::uint64_t kLeast = 100, kLeastClear = 40, kClear = 8;
+  if (2 * votes > 3 * others && votes > kLeast) return true;
+  return votes > kLeastClear && votes > kClear * others;
 }
 
-EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left) {
-  EyeVotes votes;
-  for (int r = 0; r < map.rows; ++r) {
-    for (int c = kBeside; c < map.cols - kBeside; ++c) {
-      if (map.seen[map.at(c, r)] != 0) continue;
-      int end = c;
-      while (end < map.cols && map.seen[map.at(end, r)] == 0) ++end;
-      const bool inside = end + kBeside <= map.cols && map.seen[map.at(c - 1, r)] != 0;
-      const float rise = inside ? map.pixels[map.at(end, r)] - map.pixels[map.at(c - 1, r)] : 0;
-      const auto run = static_cast<float>(end - c);
-      if (rise >= kStep && end - c >= kLeastRun && run < 2 * rise && rise < 2 * run && hasEvenSides(map, r, c, end))
-        voteOnRun(left, r, c, end, votes);
-      c = end;
-    }
-  }
+EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
+  EyeVotes votes = voteOnView(map, left);
+  ViewPicture mirrored = right;
+  mirror(mirrored);
+  votes += voteOnView(mirroredRight(map), mirrored);
   return votes;
 }
 

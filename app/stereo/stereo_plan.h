@@ -27,6 +27,7 @@ struct StereoPlan {
   int cols = 0, rows = 0;  // of a view
   std::vector<ShotPlan> shots;
   bool views_swapped = false;      // the first view is the right eye's
+  bool order_known = false;        // else the pictures do not tell which eye's is first
   std::vector<std::string> notes;  // what was corrected; one line each
 
   // The shot at a time; the first one before it begins.

@@ -13,7 +13,9 @@ namespace {
 
 constexpr Duration kLookEvery = std::chrono::milliseconds(500);
 constexpr std::size_t kMostLooks = 24;  // kept of a shot; of a longer one every second is left out, and so on
+constexpr int kKeptCols = 640;          // of what is kept: in which the eyes are told apart
 constexpr int kReducedCols = 320;       // in which the range is measured
+constexpr std::size_t kMostAsked = 8;   // pictures of a shot that tell the eyes apart
 constexpr int kWidest = 6;              // a part of the width: the largest disparity
 constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
@@ -21,8 +23,8 @@ constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
 constexpr double kBadRest = 1.5;        // pixels
 constexpr const char* kSamePicture = "both views are the same picture: there is no depth to be had from it";
 
-ViewPicture reduced(const ViewPicture& view) {
-  const int cols = std::min(view.cols, kReducedCols);
+ViewPicture reduced(const ViewPicture& view, int most_cols) {
+  const int cols = std::min(view.cols, most_cols);
   ViewPicture small(cols, std::max(1, view.rows * cols / view.cols));
   cv::Mat result = asMat(small);
   cv::resize(asMat(view), result, result.size(), 0, 0, cv::INTER_AREA);
@@ -136,7 +138,7 @@ void StereoSurvey::look(const Frame& left, const Frame& right) {
   right_tone_.add(b);
   const auto found = findPairs(a, b);
   pairs_.insert(pairs_.end(), found.begin(), found.end());
-  looked_.push_back({reduced(a), reduced(b)});
+  looked_.push_back({reduced(a, kKeptCols), reduced(b, kKeptCols)});
   if (looked_.size() < kMostLooks) return;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < looked_.size(); i += 2) looked_[kept++] = std::move(looked_[i]);
@@ -154,28 +156,41 @@ void StereoSurvey::endShot() {
   shot.exposure = exposureBetween(left_tone_, right_tone_);
   shot.is_balanced = shot.exposure.isNeeded();
   measureRange(shot);
+  askEyes(shot);
 }
 
-// By matching reduced pictures over the widest range.
+// By matching small pictures over the widest range.
 void StereoSurvey::measureRange(ShotPlan& shot) {
   constexpr double kLeastFound = 0.1, kOutliers = 0.002, kSpare = 0.05;
-  const int cols = looked_.front().left.cols, widest = std::max(cols / kWidest, 1);
+  const int cols = std::min(looked_.front().left.cols, kReducedCols), widest = std::max(cols / kWidest, 1);
   const double scale = static_cast<double>(plan_.cols) / cols;
+  const double kept = static_cast<double>(plan_.cols) / looked_.front().left.cols;
   DisparityCount count(widest + 1);
   std::uint64_t all = 0;
   for (Looked& looked : looked_) {
     if (shot.is_balanced) balance(looked.right, shot.exposure);
-    if (shot.is_aligned) looked.right = aligned(looked.right, scaledBy(shot.alignment, 1 / scale));
-    const DisparityMap map = matchFromBoth(looked.left, looked.right, {-widest, widest});
+    if (shot.is_aligned) looked.right = aligned(looked.right, scaledBy(shot.alignment, 1 / kept));
+    const DisparityMap map = matchFromBoth(reduced(looked.left, cols), reduced(looked.right, cols), {-widest, widest});
     count.add(map);
     all += map.size();
-    eyes_ += voteOnEyes(map, looked.left);
   }
   shot.has_depth = static_cast<double>(count.all()) > kLeastFound * static_cast<double>(all);
   if (shot.has_depth && isSame(count)) ++same_;
   const double low = scale * count.below(kOutliers), high = scale * (count.below(1 - kOutliers) + 0.25);
   const double spare = scale + kSpare * (high - low);
   shot.range = {static_cast<int>(std::floor(low - spare)), static_cast<int>(std::ceil(high + spare))};
+}
+
+// What one eye alone sees is a few pixels wide: it is looked for in larger pictures than the range.
+void StereoSurvey::askEyes(const ShotPlan& shot) {
+  if (!shot.has_depth) return;
+  const int cols = looked_.front().left.cols;
+  const auto inKept = [&](int disparity) { return static_cast<double>(disparity) * cols / plan_.cols; };
+  const DisparityRange range{static_cast<int>(std::floor(inKept(shot.range.lowest))),
+                             static_cast<int>(std::ceil(inKept(shot.range.highest)))};
+  const std::size_t step = (looked_.size() + kMostAsked - 1) / kMostAsked;
+  for (std::size_t i = 0; i < looked_.size(); i += step)
+    eyes_ += voteOnEyes(quick_.match(looked_[i].left, looked_[i].right, range), looked_[i].left, looked_[i].right);
 }
 
 void StereoSurvey::explain() {
@@ -225,6 +240,7 @@ Result<StereoPlan> StereoSurvey::finish() {
                 "its views have nothing in common; it is no film of two views, or they lie another way: see --packing");
   }
   plan_.views_swapped = eyes_.areSwapped();
+  plan_.order_known = plan_.views_swapped || eyes_.areInOrder();
   explain();
   return std::move(plan_);
 }

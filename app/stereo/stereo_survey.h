@@ -7,6 +7,7 @@
 
 #include "app/stereo/cut_finder.h"
 #include "app/stereo/eye_order.h"
+#include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/stereo_plan.h"
 #include "app/stereo/view_picture.h"
 #include "hal/media/frame.h"
@@ -25,7 +26,7 @@ class StereoSurvey {
 
  private:
   struct Looked {
-    ViewPicture left, right;  // reduced
+    ViewPicture left, right;  // at most kKeptCols wide
   };
 
   [[nodiscard]] bool beginsShot(const Frame& left);
@@ -33,6 +34,7 @@ class StereoSurvey {
   void beginShot(MediaTime begin);
   void endShot();
   void measureRange(ShotPlan& shot);
+  void askEyes(const ShotPlan& shot);
   void explain();
 
   StereoPlan plan_;
@@ -45,6 +47,7 @@ class StereoSurvey {
   int stride_ = 1, until_next_ = 0;
   // Of the film.
   EyeVotes eyes_;
+  QuickMatching quick_;
   std::uint64_t pictures_ = 0, one_black_ = 0, alike_ = 0;
   int unfitting_ = 0;
   std::size_t same_ = 0;  // shots whose views are the same picture

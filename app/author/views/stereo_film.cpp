@@ -77,7 +77,7 @@ Outcome<StereoFilm> StereoFilm::survey(const SourceOptions& source, const PairRe
   bool swapped = swap == SwapEyes::Yes;
   auto plan = planOf(*told, backends, swapped, stop, progress);
   if (!plan) return std::unexpected(plan.error());
-  const bool looks_swapped = plan->views_swapped;
+  const bool looks_swapped = plan->views_swapped, order_known = plan->order_known;
   if (looks_swapped && swap == SwapEyes::Auto) {
     swapped = true;
     plan = planOf(*told, backends, swapped, stop, progress);
@@ -91,6 +91,10 @@ Outcome<StereoFilm> StereoFilm::survey(const SourceOptions& source, const PairRe
   } else if (looks_swapped) {
     film.notes_.insert(film.notes_.begin(), print("the views look swapped, near and far exchanged; try --swap-eyes %s",
                                                   swapped ? "no" : "yes"));
+  } else if (!order_known && swap == SwapEyes::Auto) {
+    film.notes_.emplace_back(
+        "the pictures do not tell which eye's view comes first; it is taken for the left eye's: if near feels far, "
+        "make it again with --swap-eyes yes");
   }
   return film;
 }

@@ -18,7 +18,8 @@ constexpr double kLeastFound = 0.4;  // share of the pixels that both views show
 constexpr double kOutliers = 0.005;
 constexpr double kMoved = 0.05;      // share of the pixels, at each end, that may lie elsewhere in one picture twice
 constexpr float kSamePlace = 0.25F;  // pixels of the survey
-constexpr int kVoteCols = 320;       // in which the eyes are told apart
+constexpr int kVoteCols = 320;       // in which the eyes are told apart at first, as a shot has to begin
+constexpr int kClearVoteCols = 640;  // and where that does not tell
 constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
@@ -120,17 +121,17 @@ void QuickDepth::measureShot() {
   eyes_.in_order /= 2;
   eyes_.swapped /= 2;
   votes_left_ = kVotes;
-  orderEyes();
+  orderEyes(kVoteCols);
 }
 
 // The strips that one eye alone sees lie on the other side of things if the views are swapped. One picture may show
 // too few of them.
-void QuickDepth::orderEyes() {
-  const int cols = std::min(kVoteCols, left_.cols);
+void QuickDepth::orderEyes(int most_cols) {
+  const int cols = std::min(most_cols, left_.cols);
   const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
   reduce(left_, size, small_left_);
   reduce(right_, size, small_right_);
-  EyeVotes now = voteOnEyes(matching_.match(small_left_, small_right_, rangeAt(cols)), small_left_);
+  EyeVotes now = voteOnEyes(matching_.match(small_left_, small_right_, rangeAt(cols)), small_left_, small_right_);
   if (swapped_) std::swap(now.in_order, now.swapped);
   --votes_left_;
   eyes_ += now;
@@ -147,7 +148,7 @@ void QuickDepth::lookAgain() {
   const auto now = reach();
   one_picture_ = false;  // of the shot: something else in it has depth
   if (now) matched_ = {std::min(range_->low, now->low), std::max(range_->high, now->high)};
-  if (now && votes_left_ > 0) orderEyes();
+  if (now && votes_left_ > 0) orderEyes(isOrderTold() ? kVoteCols : kClearVoteCols);
 }
 
 DisparityRange QuickDepth::rangeAt(int cols) const noexcept {

@@ -43,6 +43,8 @@ class QuickDepth {
   [[nodiscard]] bool isOnePicture() const noexcept { return one_picture_; }
   // Whether the right eye's view came first. The depth is that of the view that came first all the same.
   [[nodiscard]] bool areSwapped() const noexcept { return swapped_; }
+  // Whether the present shot was asked for it, and neither it nor those before it told.
+  [[nodiscard]] bool isOrderUnknown() const noexcept { return range_ && votes_left_ == 0 && !isOrderTold(); }
   // What the lowest and the highest code of the present shot mean: disparities as parts of the width, near is high.
   struct Range {
     float low = 0, high = 0;
@@ -56,7 +58,8 @@ class QuickDepth {
   void mirrorBoth();
   [[nodiscard]] std::optional<Range> reach();
   void measureShot();
-  void orderEyes();
+  [[nodiscard]] bool isOrderTold() const noexcept { return eyes_.areInOrder() || eyes_.areSwapped(); }
+  void orderEyes(int cols);
   void lookAgain();
   void match(DisparityMap& large);
   [[nodiscard]] DisparityRange rangeAt(int cols) const noexcept;

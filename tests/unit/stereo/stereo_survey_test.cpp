@@ -55,6 +55,15 @@ TEST(StereoSurvey, SeesThatTheViewsAreSwapped) {
   EXPECT_TRUE(planOf(scene.right(), scene.left()).value().views_swapped);
 }
 
+TEST(StereoSurvey, SaysWhetherThePicturesTellTheOrder) {
+  const TwoViews scene = boards();
+  TwoViews wall = scene;
+  wall.boards.resize(1);
+  EXPECT_TRUE(planOf(scene.left(), scene.right()).value().order_known);
+  EXPECT_TRUE(planOf(scene.right(), scene.left()).value().order_known);
+  EXPECT_FALSE(planOf(wall.left(), wall.right()).value().order_known);
+}
+
 TEST(StereoSurvey, MeasuresAViewThatLiesTooLow) {
   const TwoViews scene = boards();
   const auto plan = planOf(scene.left(), scene.right({.down = 12})).value();
