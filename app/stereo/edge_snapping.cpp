@@ -20,11 +20,13 @@ constexpr int kNear = 5;           // pixels: as far a step may lie from its out
 constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
 constexpr float kColor = 12;       // levels: of a colour's likeness
 constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
+constexpr float kHidden = 10;      // levels: of a pixel that lies behind what the right eye sees at its place
+constexpr float kFront = 2.5F;     // pixels of disparity by which one is in front of the other
 constexpr float kInferred = 0.3F;  // weight of a neighbour that was not seen
 constexpr float kSupport = 0.5F;   // of the neighbours' disparities, beside how they fit the right view
 constexpr float kLight = 0.05F;    // lesser weights are left out
 constexpr std::size_t kMostChoices = 6;
-constexpr int kPasses = 2;
+constexpr int kPasses = 3;
 
 struct Choice {
   float first = 0, weight = 0, sum = 0;
@@ -115,10 +117,24 @@ class Snapper {
     }
     return found;
   }
-  // Of one pixel of the left view at a disparity.
+  // By how much what both eyes see at the place in the right view is nearer than a point at this disparity: more than
+  // 0, and it hides the point; less, and the right eye looks through the point. 0 where both eyes see no one thing.
+  [[nodiscard]] float standsInFront(int x, int r, float disparity) const {
+    const float seen = map_.from_right[map_.at(x, r)];
+    if (!std::isfinite(seen)) return 0;
+    const int back = x + nearest(seen);
+    if (back < 0 || back >= map_.cols) return 0;
+    const std::size_t there = map_.at(back, r);
+    return map_.seen[there] != 0 && std::abs(map_.pixels[there] - seen) <= 1 ? seen - disparity : 0;
+  }
+  // Of one pixel of the left view at a disparity. What lies beside a near thing's left edge is hidden from the right
+  // eye: at the near thing's disparity it would fit, since the right view shows the same wall there.
   [[nodiscard]] float misfit(int c, int r, int whole, float rest) const {
     const int x = c - whole;
     if (x < 1 || x >= map_.cols) return kWorst;
+    const float nearer = standsInFront(x, r, static_cast<float>(whole) + rest);
+    if (nearer > kFront) return kHidden;
+    if (nearer < -kFront) return kWorst;
     const std::uint8_t* p = left_.pixel(c, r);
     const std::uint8_t* q = right_.pixel(x - 1, r);
     float sum = 0;
