@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-constexpr float kFew = 64;  // pixels of a surface that tell half as much as many
+constexpr float kFew = 24;  // pixels of a surface that tell half as much as many
 
 }  // namespace
 

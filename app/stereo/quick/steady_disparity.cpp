@@ -12,6 +12,7 @@ constexpr int kMotionCols = 160;       // in which motion is looked for
 constexpr int kSameColor = 12;         // levels of the three components, over 3 x 3 pixels in the mean
 constexpr float kSurface = 0.75F;      // pixels of disparity between two surfaces
 constexpr std::uint8_t kMemory = 24;   // pictures
+constexpr int kMovingMemory = 5;       // pictures, of what comes nearer or goes away: its change is known but roughly
 constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
 constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
 constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
@@ -196,7 +197,7 @@ void SteadyDisparity::average(DisparityMap& map) {
       int age = was->age + (*seen != 0 ? 1 : 0);  // an inferred disparity tells little
       if (was->same) {
         const MotionGrid::Change change = towards_.at(c, r, *pixels);
-        age = std::min(age, static_cast<int>(kMemory * change.stillness));
+        age = std::min(age, std::max(kMovingMemory, static_cast<int>(kMemory * change.stillness)));
         const int weight = *seen != 0 ? std::max(age, 1) : age + kInferred;
         const float moved = was->disparity + change.pixels;
         *pixels = moved + (*pixels - moved) / static_cast<float>(weight);
