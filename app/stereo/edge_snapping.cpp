@@ -6,8 +6,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <vector>
 
 namespace relievo {
@@ -42,7 +44,8 @@ struct Neighbours {
   std::size_t count = 0;
   std::array<Choice, kMostChoices> choices;
   std::size_t choice_count = 0;
-  float weight = 0;  // of all that support a choice
+  float weight = 0;      // of all that support a choice
+  float fit_weight = 0;  // of all
 
   void support(float disparity, float by) {
     std::size_t i = 0;
@@ -66,8 +69,10 @@ class Snapper {
     }
   }
 
-  [[nodiscard]] std::vector<float> snapped() const {
-    const cv::Mat near = nearSteps();
+  // `changed`: what the last pass changed; others stay as they are, but beside those. Empty: the first pass.
+  [[nodiscard]] std::vector<float> snapped(const cv::Mat& changed) const {
+    cv::Mat near = nearSteps();
+    if (!changed.empty()) cv::bitwise_and(near, around(changed, kReach), near);
     std::vector<float> result = map_.pixels;
     cv::parallel_for_(cv::Range(0, map_.rows), [&](const cv::Range& rows) {
       for (int r = rows.start; r < rows.end; ++r) {
@@ -88,21 +93,26 @@ class Snapper {
     return std::abs(map_.pixels[map_.at(c + across, r + down)] - map_.pixels[map_.at(c, r)]) > 1;
   }
   [[nodiscard]] cv::Mat nearSteps() const {
-    cv::Mat steps(map_.rows, map_.cols, CV_8U), near;
+    cv::Mat steps(map_.rows, map_.cols, CV_8U);
     for (int r = 0; r < map_.rows; ++r) {
       for (int c = 0; c < map_.cols; ++c) {
         const bool step = leaps(c, r, 1, 0) || leaps(c, r, 0, 1) || leaps(c, r, 2, 0) || leaps(c, r, 0, 2);
         steps.at<std::uint8_t>(r, c) = step ? 1 : 0;
       }
     }
-    cv::dilate(steps, near,
-               cv::getStructuringElement(cv::MORPH_RECT, {2 * kNear * stride_ + 1, 2 * kNear * stride_ + 1}));
-    return near;
+    return around(steps, kNear);
+  }
+  // What is not 0, and what lies so many strides beside it.
+  [[nodiscard]] cv::Mat around(const cv::Mat& marks, int reach) const {
+    const int width = 2 * reach * stride_ + 1;
+    cv::Mat result;
+    cv::dilate(marks, result, cv::getStructuringElement(cv::MORPH_RECT, {width, width}));
+    return result;
   }
   [[nodiscard]] int unlikeness(std::size_t a, std::size_t b) const {
     return relievo::unlikeness(left_.pixel(a), left_.pixel(b));
   }
-  [[nodiscard]] Neighbours around(int c, int r) const {
+  [[nodiscard]] Neighbours neighboursOf(int c, int r) const {
     Neighbours found;
     const std::size_t here = map_.at(c, r);
     for (int j = -kReach; j <= kReach; ++j) {
@@ -111,7 +121,10 @@ class Snapper {
         if (x < 0 || x >= map_.cols || y < 0 || y >= map_.rows) continue;
         const std::size_t there = map_.at(x, y);
         const float weight = of_color_[static_cast<std::size_t>(unlikeness(here, there))] * of_place_[place(i, j)];
-        if (weight > kLight) found.all[found.count++] = {x, y, weight};
+        if (weight > kLight) {
+          found.all[found.count++] = {x, y, weight};
+          found.fit_weight += weight;
+        }
         found.support(map_.pixels[there], map_.seen[there] != 0 ? weight : kInferred * weight);
       }
     }
@@ -144,26 +157,28 @@ class Snapper {
     }
     return std::min(sum, kWorst);
   }
-  // From 0, where all neighbours fit the right view, to 1.
-  [[nodiscard]] float misfit(const Neighbours& around, float disparity) const {
+  // From 0, where all neighbours fit the right view, to 1; or at least `most`, which ends it early.
+  [[nodiscard]] float misfit(const Neighbours& near, float disparity, float most) const {
     const int whole = static_cast<int>(std::floor(disparity));
-    const float rest = disparity - static_cast<float>(whole);
-    float misfits = 0, weights = 0;
-    for (std::size_t i = 0; i < around.count; ++i) {
-      const auto& n = around.all[i];
+    const float rest = disparity - static_cast<float>(whole), scale = 1 / (near.fit_weight * kWorst);
+    float misfits = 0;
+    for (std::size_t i = 0; i < near.count && misfits * scale < most; ++i) {
+      const auto& n = near.all[i];
       misfits += n.weight * misfit(n.c, n.r, whole, rest);
-      weights += n.weight;
     }
-    return misfits / weights / kWorst;
+    return misfits * scale;
   }
   [[nodiscard]] float best(int c, int r) const {
-    const Neighbours found = around(c, r);
+    Neighbours found = neighboursOf(c, r);
     const float own = map_.pixels[map_.at(c, r)];
     if (found.choice_count == 1) return own;
+    // The likeliest first: it ends the others early.
+    std::ranges::sort(std::span(found.choices).first(found.choice_count), std::greater(), &Choice::weight);
     float least = 2, chosen = own;
     for (std::size_t i = 0; i < found.choice_count; ++i) {
       const Choice& choice = found.choices[i];
-      const float cost = misfit(found, choice.disparity()) - kSupport * choice.weight / found.weight;
+      const float support = kSupport * choice.weight / found.weight;
+      const float cost = misfit(found, choice.disparity(), least + support) - support;
       if (cost >= least) continue;
       least = cost;
       chosen = choice.disparity();
@@ -181,7 +196,14 @@ class Snapper {
 }  // namespace
 
 void snapEdges(DisparityMap& map, const ViewPicture& left, const ViewPicture& right) {
-  for (int i = 0; i < kPasses; ++i) map.pixels = Snapper(map, left, right).snapped();
+  cv::Mat changed;
+  for (int i = 0; i < kPasses; ++i) {
+    std::vector<float> snapped = Snapper(map, left, right).snapped(changed);
+    changed.create(map.rows, map.cols, CV_8U);
+    std::ranges::transform(snapped, map.pixels, changed.ptr(),
+                           [](float now, float before) -> std::uint8_t { return now != before ? 1 : 0; });
+    map.pixels = std::move(snapped);
+  }
 }
 
 }  // namespace relievo
