@@ -73,6 +73,10 @@ class Inverse3 final : public HapticDevice {
     if (auto opened = channel_.open(cancelled()); !opened) return opened;
     const auto inventory = firstWords();
     if (!inventory) return std::unexpected(inventory.error());
+    if (inventory->of_3_0)
+      return fail(ErrorCode::Unsupported,
+                  "these are the older messages, 3.0, of the Haply Inverse service; use its port 10001, or install 3.1 "
+                  "or later");
     if (!inventory->known)
       return fail(ErrorCode::Unsupported, "this version of the Haply Inverse service is not known; use 3.1 to 3.5");
     if (inventory->id.text().empty())

@@ -110,6 +110,7 @@ std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wan
     const bool grip = key == "verse_grip" || key == "wireless_verse_grip";
     (grip || key == "inverse3" || key == "session_id" ? known : strange) = true;
     if (key == "inverse3") {
+      snapshot.of_3_0 = snapshot.of_3_0 || json.isObject();
       json.array([&]() RELIEVO_RT { take(readArm(json), wanted, snapshot); });
     } else if (grip) {
       json.array([&]() RELIEVO_RT { snapshot.buttons |= readGrip(json); });

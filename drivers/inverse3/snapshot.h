@@ -28,6 +28,7 @@ class DeviceId {
 struct Snapshot {
   bool from_3_5 = false;  // has what only versions from 3.5 on send
   bool known = false;     // lists devices, or nothing at all
+  bool of_3_0 = false;    // lists them in the older form, by name, as the service does on port 10000
   DeviceId id;            // of the first Inverse3 listed, or of the one asked for; empty if it is not listed
   std::optional<glm::dvec3> position_m;  // the service's frame: x right, y forward, z up
   bool powered = true, ready = true;     // unless the service says otherwise

@@ -130,6 +130,7 @@ void Inverse3Service::upgrade(MonotonicTime now) {
   incoming_.erase(0, end + 4);
   upgraded_ = true;
   std::string text = stateText(now, true, glm::dvec3(0));
+  if (version_ == Version::V3_0) text = R"({"inverse3":{"049D":{"config":{"device_info":{"id":"049D","model":4}}}}})";
   if (version_ == Version::V9) text = R"({"devices":{"049D":{"kind":"inverse3","pose":[0,0,0,0,0,0,1]}}})";
   say("HTTP/1.1 101 Switching Protocols\r\nupgrade: WebSocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: " +
           accept + "\r\n\r\n" + serverFrame(1, text),

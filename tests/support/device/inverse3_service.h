@@ -35,7 +35,7 @@ struct ServiceFaults {
 
 class Inverse3Service {
  public:
-  enum class Version : std::uint8_t { V3_1, V3_5, V9 };
+  enum class Version : std::uint8_t { V3_0, V3_1, V3_5, V9 };
   explicit Inverse3Service(Version version, unsigned seed = 1) : version_(version), random_(seed) {}
 
   // The hand's position in mm: x right, y up, z toward the user, from the middle of the workspace.

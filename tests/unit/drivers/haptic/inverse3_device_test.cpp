@@ -204,6 +204,15 @@ TEST(Inverse3Versions, AnotherVersionIsRefused) {
   EXPECT_FALSE(bench.service.connected());
 }
 
+TEST(Inverse3Versions, TheOlderMessagesAreToldByTheirNameAndLeadToTheOtherPort) {
+  Bench bench(Version::V3_0);
+  const auto opened = bench.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  EXPECT_THAT(opened.error().message, testing::AllOf(testing::HasSubstr("3.0"), testing::HasSubstr("port 10001")));
+  EXPECT_FALSE(bench.service.connected());
+}
+
 // ---- loss and return
 
 TEST_P(Inverse3Device, AServiceThatDiesIsLostAtOnceAndIsFoundAgain) {
