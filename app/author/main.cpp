@@ -90,7 +90,7 @@ DepthSize depthSize(const std::string& word) {
 void addDepthFromOptions(CLI::App& app, Arguments& a) {
   app.add_option(
          "--depth-from", a.depth_from,
-         "Make the depth of a film that has none\nstereo: from a 3D film's two views, left and right, or above and "
+         "Make depth for a film without depth\nstereo: from a 3D film's two views, left and right, or above and "
          "below "
          "each other; the film's\ncolour is the left view\nCMD: a command that guesses it from one view. /bin/sh runs "
          "it; "
@@ -102,7 +102,7 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
   app.add_option_function<std::string>(
          "--depth-size", [&a](const std::string& word) { a.depth_size = depthSize(word); },
          "With --depth-from: the size of the depth that CMD writes ($RELIEVO_DEPTH_WIDTH,\n$RELIEVO_DEPTH_HEIGHT) [the "
-         "pictures'], or of the pictures that a network of any size is given")
+         "pictures' size], or the input size of a network that takes any size")
       ->type_name("WxH")
       ->needs("--depth-from");
   addChoice(app, "--swap-eyes", a.swap_eyes, {{"auto", SwapEyes::Auto}, {"no", SwapEyes::No}, {"yes", SwapEyes::Yes}},

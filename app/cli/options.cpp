@@ -206,7 +206,7 @@ void addMaterialOption(CLI::App& app, SourceOptions& source) {
   app.add_option_function<std::string>(
          "--material", [&source](const std::string& word) { source.material = readMaterial(word); },
          "What the surface feels like; overrides the film's tags and material track, part by part\n"
-         "stiffness=N/MM [0.5, or what the device holds]; friction=STATIC/DYNAMIC: shares of what presses [0];\n"
+         "stiffness=N/MM [0.5, or what the device holds]; friction=STATIC/DYNAMIC: coefficients [0];\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm [0], such as stiffness=.3,friction=.2/.15,texture=.1@.8")
       ->type_name("KEY=VALUE,..");
 }
@@ -220,9 +220,9 @@ void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps) 
              else source.material = readMaterial(word);
            }
          },
-         "What the surface feels like: stiffness=N/MM, friction=STATIC/DYNAMIC: shares of what presses,\n"
+         "What the surface feels like: stiffness=N/MM, friction=STATIC/DYNAMIC: coefficients,\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm, such as stiffness=.3,friction=.2/.15,texture=.1@.8. Or at each\n"
-         "place: FILE, a picture painted over the first picture of the film, which stays on its things until the cut,\n"
+         "place: FILE, a picture painted over the first picture of the film, which follows its objects until the cut,\n"
          "0=FILE,SECONDS=FILE,..: a painting for each shot, from its first picture on, or a film of such pictures. "
          "Red\n"
          "is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent is not painted.\n"

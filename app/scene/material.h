@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Coulomb friction between the proxy and the surface, as shares of what presses; 0: none.
+// Coulomb friction between the proxy and the surface, as coefficients of friction; 0: none.
 struct Friction {
   double static_coefficient = 0, dynamic_coefficient = 0;  // dynamic <= static
   bool operator==(const Friction&) const = default;

@@ -8,14 +8,15 @@ inline constexpr const char* kAbout =
     "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.\n";
 inline constexpr const char* kProgramAbout =
     "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
-    "  relievo help COMMAND      tells what a command takes; `relievo help play` begins with what people do most\n";
+    "  relievo help COMMAND      shows the options of a command; `relievo help play` begins with the most frequent "
+    "uses\n";
 inline constexpr const char* kProgramFooter =
     "\nExamples:\n"
     "  relievo film.mkv                               in a window; press into the picture with the mouse to feel it\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
     "                                                 what is in it: colour on top, depth as hue below\n"
     "  relievo devices                                which devices are there, and why one cannot be used\n"
-    "  relievo selftest                               whether it works here, without any hardware\n"
+    "  relievo selftest                               tests this installation, without any hardware\n"
     "\nA file that is named like a command is reached by its path, as ./play. `relievo-author --help` tells how to "
     "make "
     "a film.\n";
@@ -84,7 +85,8 @@ inline constexpr const char* kPlayFooter =
     "  loop = true\n"
     "  [log]\n"
     "  all = \"warning\"                error, warning, info, debug; or for an area, as haptic = \"debug\"\n"
-    "\nA hand script has the line t_s,x_mm,y_mm,z_mm and a row a moment; x right, y up, z toward the viewer, 0,0,0 in "
+    "\nA hand script is a CSV file: the line t_s,x_mm,y_mm,z_mm, then a row for each moment; x right, y up, z toward "
+    "the viewer, 0,0,0 in "
     "the\n"
     "middle of the far plane. A key script has lines such as: 2.5 PLAYPAUSE (seconds, a key's name). Keys, by their "
     "names:\n";

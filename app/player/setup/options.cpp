@@ -83,13 +83,13 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   CLI::App& play = *program.add_subcommand("play", kPlayAbout);
   CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
   CLI::App& devices = *program.add_subcommand("devices", "List the devices that are there, and why one cannot be used");
-  CLI::App& self_test = *program.add_subcommand("selftest", "Tell whether it works here, without any hardware");
+  CLI::App& self_test = *program.add_subcommand("selftest", "Test this installation, without any hardware");
   self_test.footer(kSelfTestFooter);
   CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");
   addPlayOptions(play, options.play, names);
   addConfigOption(play, config_path);
   play.add_flag("--print-config", print_config,
-                "Print what would be in use, as a configuration, and where each value is from")
+                "Print the settings that would be used, as a configuration, with the source of each value")
       ->configurable(false);
   probe.add_option("SOURCE", options.probe.source.url, kSourceHelp)->type_name(" ")->required();
   addDepthSource(probe, options.probe.source);

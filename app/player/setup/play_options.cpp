@@ -22,9 +22,9 @@ constexpr double kLongestDurationS = 1e9;
 constexpr double kMostPixels = 16384;  // of a display, across and down
 constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
 constexpr const char* kStereoHelp =
-    "How it is shown\n"
+    "How the picture is shown\n"
     "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
-    "each squeezed by half; sbs:full, tab:full: each in its own shape; rows, columns: line by line;\n"
+    "each squeezed by half; sbs:full, tab:full: each in its full aspect ratio; rows, columns: line by line;\n"
     "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
 constexpr const char* kLayouts =
     "mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing quilt[:COLSxROWS]";
@@ -112,10 +112,11 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
   command.add_option_function<std::string>("--stereo", readStereo, kStereoHelp)
       ->type_name("mono|sbs|tab|rows|columns|anaglyph|frame-packing|quilt")
       ->default_str(stereoWord(stereo));
-  command.add_flag("--swap-eyes", stereo.swap_eyes, "The left eye's picture for the right eye");
+  command.add_flag("--swap-eyes", stereo.swap_eyes, "Exchange the pictures of the two eyes");
   command
-      .add_option("--depth-strength", stereo.strength,
-                  "How deep the picture looks, to the eye alone: 0 flat, 1 as the viewer's eyes stand")
+      .add_option(
+          "--depth-strength", stereo.strength,
+          "Strength of the 3D effect, seen and not felt: 0 is flat, 1 is for the real distance between the eyes")
       ->capture_default_str()
       ->check(between(0.0, StereoSettings::kMostStrength))
       ->type_name("X");
@@ -155,20 +156,20 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
                   "Sound in the first of these languages that the film has, such as jpn,en")
       ->type_name("LANG,..");
   command
-      .add_option("--slang", player.source.subtitle_languages,
-                  "Subtitles likewise [those beside the film, or that it marks as its default]")
+      .add_option(
+          "--slang", player.source.subtitle_languages,
+          "Subtitles in the first of these languages that the film has [those beside the film, or its default ones]")
       ->type_name("LANG,..");
 }
 
 void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
-  addBackEnd(
-      command, "--haptic", play.haptic, "haptic device", names.haptic,
-      "What the finger holds; given twice: what two fingers hold, each in a colour of its own [the device that\nis "
-      "plugged in, else the mouse; off screen sim]",
-      &play.second_haptic);
+  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
+             "The haptic device; give it twice to feel with two fingers, each of its own colour [the device that\nis "
+             "plugged in, else the mouse; off screen sim]",
+             &play.second_haptic);
   command
       .add_option("--rate", play.rate_hz,
-                  "Ticks of touch per second, 500 to 8000; a device that cannot runs at its best [the device's own, "
+                  "Ticks of touch per second, 500 to 8000; a slower device runs at its fastest rate [the device's own, "
                   "mostly 1000]")
       ->check(between(kLeastRateHz, kMostRateHz))
       ->type_name("HZ");
@@ -178,21 +179,20 @@ void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& na
 void addFileOptions(CLI::App& command, PlayOptions& play) {
   command.add_option("--keys", play.keys_path, "A table of keys of your own (see --print-keys) [the usual keys]")
       ->type_name("FILE");
-  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, to begin one of your own from")
+  command.add_flag("--print-keys", play.print_keys, "Print the table of keys, as a start for one of your own")
       ->configurable(false);
   command
       .add_flag("--print-states", play.print_states, "Print the player's states as a drawing: | dot -Tsvg > states.svg")
       ->configurable(false);
-  command
-      .add_flag("-v,--verbose", play.verbose, "Say more: where each value of the depth is from, figures of the ticks")
+  command.add_flag("-v,--verbose", play.verbose, "Print more: the source of each depth value, figures of the ticks")
       ->configurable(false);
   command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   command
-      .add_option(
-          "--control", play.control_path,
-          "Take commands from programs on this socket, one JSON object a line; after SOURCE, or without, wait for the\n"
-          "next film, until a program says quit")
+      .add_option("--control", play.control_path,
+                  "Take commands from programs on this socket, one JSON object per line; after SOURCE, or without it, "
+                  "wait for the\n"
+                  "next film, until a program says quit")
       ->type_name("SOCKET");
 }
 
@@ -224,10 +224,9 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addStereoOptions(command, play.player.stereo);
   addSignalOption(command, play.tv_signal);
   addTouchOptions(command, play, names);
-  addBackEnd(
-      command, "--remote", play.remote, "remote", names.remote,
-      "Where keys come from [with a window its own and the terminal's; with a screen evdev: all remote controls; else "
-      "keys: the terminal's]");
+  addBackEnd(command, "--remote", play.remote, "remote", names.remote,
+             "Where keys come from [a window: it and the terminal; a whole screen: evdev, all remote controls; else "
+             "keys: the terminal's]");
   addBackEnd(command, "--audio", play.audio, "sound output", names.audio,
              "Where the sound goes [with a window or a whole screen alsa, else none]");
   CLI::Option* const decoder = addBackEnd(
