@@ -248,6 +248,11 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   EXPECT_THAT(read(folder_ / "mvtec").depth, ElementsAre("0 mvtec/xyz/000.tiff"));
   file("holo/PV/1.png"), file("holo/Depth Long Throw/1.pgm");
   EXPECT_THAT(read(folder_ / "holo").color, ElementsAre("0 holo/PV/1.png"));
+  // Names that hold a word of colour or depth, and one of a layer.
+  for (const char* name : {"color", "depth", "color_mask", "depth_confidence"})
+    file("scan/" + std::string(name) + "_1.png");
+  EXPECT_THAT(read(folder_ / "scan").color, ElementsAre("0 scan/color_1.png"));
+  EXPECT_THAT(read(folder_ / "scan").depth, ElementsAre("0 scan/depth_1.png"));
 }
 
 TEST_F(Pictures, NamesThatDoNotCorrespondArePairedInTheirOrder) {
