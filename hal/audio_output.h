@@ -54,7 +54,7 @@ class AudioOutput {
   void close() noexcept;
 
   [[nodiscard]] State state() const noexcept { return state_; }
-  // Of the last `open`.
+  // The format of the last `open`.
   [[nodiscard]] const AudioFormat& format() const noexcept { return format_; }
   [[nodiscard]] virtual Capabilities capabilities() const noexcept = 0;
 

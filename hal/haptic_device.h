@@ -68,7 +68,7 @@ class HapticDevice {
   [[nodiscard]] State state() const noexcept { return state_; }
   // Known from `open` on; never changes while open.
   [[nodiscard]] virtual HapticCapabilities capabilities() const noexcept = 0;
-  // Of a device that passes forces on by a thread of its own: the times from the first `write` of a contact until the
+  // For a device that passes forces on in its own thread: the times from the first `write` of a contact until the
   // device has taken it, since its making. Null for others. Any thread.
   [[nodiscard]] virtual const Histogram* contactDelays() const noexcept { return nullptr; }
 

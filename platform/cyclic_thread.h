@@ -74,7 +74,7 @@ class CyclicThread {
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return run_ != nullptr; }
-  // Of the current or the last run; each `start` makes new ones.
+  // The statistics of the current or the last run; each `start` makes new ones.
   [[nodiscard]] const CyclicStatistics& statistics() const noexcept { return *statistics_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a film's pairs, makes their depth where it is to be made, and hands them to the packager.
+// Reads the pairs of a film, makes their depth if they have none, and hands them to the packager.
 #include <condition_variable>
 #include <mutex>
 #include <thread>

@@ -21,7 +21,7 @@ std::string commandOf(const CLI::App& program) {
   return command;
 }
 
-// Likewise, of a command within its program.
+// The name of a command as it is typed, with its program's name before it.
 std::string nameOf(const CLI::App& command) {
   const CLI::App* const parent = command.get_parent();
   return parent == nullptr ? command.get_name() : nameOf(*parent) + " " + command.get_name();

@@ -65,7 +65,7 @@ class DepthCommand final : public DepthEstimator {
   UniqueFd wake_;
   mutable std::mutex mutex_;
   std::condition_variable moved_;
-  // Of the pipes' thread.
+  // Only the pipes' thread uses these.
   std::size_t written_ = 0;         // bytes of the first picture that waits
   std::vector<std::uint8_t> part_;  // the next answer
   // Guarded by the mutex.

@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// The films in the folder `url`, in natural order; nullopt if it is no folder or no list of films (a recording with a
-// folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
+// The films in the folder `url`, in natural order; nullopt if it is not a folder or not a list of films (a recording
+// with a folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
 [[nodiscard]] std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url);
 // These files of `folder` as films, in natural order: one that holds another one's depth is part of that film.
 [[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);

@@ -30,7 +30,7 @@ struct BytePicture {
     return bytes.data() + Parts::kCount * index;
   }
   [[nodiscard]] std::uint8_t* pixel(std::size_t index) noexcept { return bytes.data() + Parts::kCount * index; }
-  // Of a pixel of one byte.
+  // The value of a pixel; for pictures of one byte a pixel.
   [[nodiscard]] int at(int c, int r) const noexcept
     requires(Parts::kCount == 1)
   {

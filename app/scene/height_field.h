@@ -109,7 +109,7 @@ class HeightField {
   [[nodiscard]] double colorCodeAt(int c, int r) const RELIEVO_RT;
   // NaN, which is no code, stands for a hole.
   [[nodiscard]] double heightOfColor(double code) const RELIEVO_RT;
-  // Of a plain field.
+  // Only for a plain field.
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 
   const std::uint8_t* data_ = nullptr;

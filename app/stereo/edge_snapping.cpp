@@ -140,8 +140,9 @@ class Snapper {
     const std::size_t there = map_.at(back, r);
     return map_.seen[there] != 0 && std::abs(map_.pixels[there] - seen) <= 1 ? seen - disparity : 0;
   }
-  // Of one pixel of the left view at a disparity. What lies beside a near thing's left edge is hidden from the right
-  // eye: at the near thing's disparity it would fit, since the right view shows the same wall there.
+  // How badly one pixel of the left view fits the right view at a disparity. What lies beside a near thing's left edge
+  // is hidden from the right eye: at the near thing's disparity it would fit, since the right view shows the same wall
+  // there.
   [[nodiscard]] float misfit(int c, int r, int whole, float rest) const {
     const int x = c - whole;
     if (x < 1 || x >= map_.cols) return kWorst;

@@ -20,7 +20,7 @@ class ViewTone {
   std::array<double, 3> sum_{}, squares_{};
 };
 
-// Of each component: gain * code + offset.
+// Maps a code of each component to gain * code + offset.
 struct Exposure {
   std::array<double, 3> gain{1, 1, 1}, offset{};
 

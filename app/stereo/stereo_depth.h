@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Of one pair of views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
+// The disparity of two views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
 [[nodiscard]] DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
 
 // What charts and tests hold it against: one of OpenCV's matchers alone, as its documentation uses it, on brightness;

@@ -40,12 +40,12 @@ class StereoSurvey {
   StereoPlan plan_;
   CutFinder cuts_;
   MediaTime looked_at_;
-  // Of the present shot.
+  // For the present shot:
   std::vector<PointPair> pairs_;
   ViewTone left_tone_, right_tone_;
   std::vector<Looked> looked_;
   int stride_ = 1, until_next_ = 0;
-  // Of the film.
+  // For the whole film:
   EyeVotes eyes_;
   QuickMatching quick_;
   std::uint64_t pictures_ = 0, one_black_ = 0, alike_ = 0;

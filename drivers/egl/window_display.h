@@ -43,7 +43,7 @@ class WindowDisplay final : public Display {
   [[nodiscard]] bool fillsScreen() const noexcept override {
     return by_hand_ || (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
   }
-  // Of the current surface: SDL believes that a window fills the screen as soon as it has asked for that.
+  // The width of the current surface. SDL says that a window fills the screen as soon as it has asked for that.
   [[nodiscard]] static int trueWidth() noexcept;
   [[nodiscard]] static int trueHeight() noexcept;
   void followFullScreen();

@@ -197,7 +197,7 @@ std::string viewOf(const Imf::Header& header) {
   return header.hasView() ? header.view() : "";
 }
 
-// Of the depth's own view if there are several.
+// The colour layer, of the same view as the depth if there are several views.
 Choice chooseColor(const Imf::MultiPartInputFile& file) {
   const Choice depth = choosePart(file, namedDepth);
   for (int i = 0; i < file.parts() && !depth.names.empty(); ++i) {

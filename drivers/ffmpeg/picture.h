@@ -41,7 +41,7 @@ class Converter {
   // Gray in floating point becomes codes on the scale of the first such picture (hal/media/float_codes.h). Unsupported
   // if FFmpeg cannot read the format, Exhausted if out of memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
-  // Of the last converted picture: Frame::value_per_code.
+  // Frame::value_per_code of the last converted picture.
   [[nodiscard]] double valuePerCode() const noexcept { return codes_ ? codes_->valuePerCode() : 0; }
   // For another film.
   void forgetScale() noexcept { codes_.reset(); }

@@ -42,7 +42,7 @@ InputCodes<Codes> codesOf(int fd, unsigned type) {
   return codes;
 }
 
-// Nothing for a node that is no input device.
+// Nothing for a node that is not an input device.
 std::optional<PadFacts> ask(int fd) {
   std::array<char, 256> name{};
   if (::ioctl(fd, EVIOCGNAME(name.size() - 1), name.data()) < 0) return std::nullopt;

@@ -116,7 +116,7 @@ struct MockDisplayProfile {
   std::uint64_t lose_after_frames = kNever;   // every call returns Lost until closed
   std::uint64_t close_after_frames = kNever;  // attend returns Cancelled, as if the viewer closed the window
   std::function<void()> shown;                // called when each picture reaches the screen
-  // Of a window: what the viewer has dropped on it since the last call; what it is told.
+  // For a window: returns the files that the viewer has dropped on it since the last call.
   std::function<std::vector<std::string>()> dropped;
   std::function<void(const AnnouncedFilm&)> announced;
   std::function<void(FullScreen)> filled;

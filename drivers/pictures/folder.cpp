@@ -214,7 +214,7 @@ std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
 
 Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = true);
 
-// Of a folder without pictures: its only folder with a recording of colour and depth ("keyframes", "results").
+// For a folder without pictures: the recording in its only sub-folder that has one ("keyframes", "results").
 std::optional<FoundPictures> findBelow(const std::string& folder, const Listing& listing) {
   constexpr std::size_t kMostFolders = 16;
   std::optional<FoundPictures> found;

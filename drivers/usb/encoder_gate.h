@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// Of a device's three motors.
+// Counts of the encoders on a device's three motors.
 using EncoderCounts = std::array<std::int16_t, 3>;
 
 // A reading is accepted if it is within the slack, for each tick that has passed, of the extrapolation of the last two.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes raw pictures on without decoding; converts depth to a gray picture where it is to be seen.
+// Passes raw pictures on without decoding; converts depth to a gray picture if it is shown as the colour.
 #include <algorithm>
 #include <deque>
 #include <utility>

@@ -117,7 +117,7 @@ class MediaSource {
   [[nodiscard]] const std::vector<Chapter>& chapters() const noexcept { return chapters_; }
   // What the source found out about itself and a user may want to know, one line each. Empty while Closed.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
-  // Of the whole film; 0 if unknown (live).
+  // The length of the whole film; 0 if unknown (live).
   [[nodiscard]] Duration duration() const noexcept { return duration_; }
   // True for a network source or a camera, which may go away and come back.
   [[nodiscard]] bool remote() const noexcept { return origin_.remote; }

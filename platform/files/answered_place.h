@@ -26,7 +26,7 @@ struct FolderEntry {
 };
 // In no order, without "." and ".."; empty if the folder cannot be listed. An error as ask().
 [[nodiscard]] Result<std::vector<FolderEntry>> listFolder(const std::string& path);
-// Likewise; empty too if the file system does not answer.
+// The same; also empty if the file system does not answer.
 [[nodiscard]] std::vector<FolderEntry> entriesOf(const std::string& path);
 
 // Makes the folder and its missing parents. Reports no error: writing a file there will report it.

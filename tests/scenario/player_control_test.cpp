@@ -230,7 +230,7 @@ TEST_F(PlayerAndPrograms, NonsenseIsAnsweredAndDoesNoHarm) {
   EXPECT_EQ(bench_.report.frames_shown, 250U);
 }
 
-// A device that fails at every tick is no thousand lines a second.
+// A device that fails at every tick must not send a thousand lines a second.
 TEST_F(PlayerAndPrograms, TheSameFaultRunningIsToldOnce) {
   bench_.haptic.refuses_force = true;
   play();

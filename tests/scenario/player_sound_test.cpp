@@ -181,7 +181,7 @@ TEST_F(PlayerSound, WaitsForAScreenThatIsSlow) {
   film(500);
   bench_.display.refresh_period = PlayerBench::kPeriod / 2;
   playsWell();
-  // The very first comes before the clock runs: after it each is late by a refresh.
+  // The clock starts with the first picture; every later picture is late by one refresh.
   const double late_s = moments_[0].time_s + 0.02;
   std::erase_if(moments_, [late_s](const Moment& moment) {  // what is drawn anew between two
     return std::abs(std::remainder(moment.time_s - late_s, 0.04)) > 0.01;

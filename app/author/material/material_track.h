@@ -37,7 +37,7 @@ class MaterialTrack {
 
   [[nodiscard]] int cols() const noexcept { return cols_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  // Of the parts that the maps have: gray ones have stiffness alone.
+  // What full codes stand for, for the parts that the maps have: gray maps have stiffness alone.
   [[nodiscard]] const Material& scale() const noexcept { return scale_; }
 
   // The next picture of the film; `begins_shot`: nothing in it continues the one before. The result is valid until the

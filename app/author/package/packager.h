@@ -22,7 +22,7 @@
 
 namespace relievo {
 
-// How many pictures a film has, as far as it tells.
+// How many pictures the film has, if it says so.
 [[nodiscard]] std::optional<std::uint64_t> expectedFrames(const FilmInfo& info);
 
 // Everything between the reader and the writer. Pairs are written on the caller's thread, the depth is enhanced on one

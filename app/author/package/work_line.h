@@ -20,7 +20,7 @@ class WorkLine {
  public:
   using Job = std::move_only_function<Answer()>;
   static constexpr std::size_t kWaiting = 1;
-  // Of the owner's buffers that a job uses: those of the jobs that wait, of the present one, and of the next.
+  // How many buffers the owner needs: for the jobs that wait, for the present one, and for the next.
   static constexpr std::size_t kBuffers = kWaiting + 2;
 
   WorkLine() : thread_([this](const std::stop_token& stop) { work(stop); }) {}

@@ -51,7 +51,7 @@ class SafetyFilter {
   [[nodiscard]] double sceneSlew() const RELIEVO_RT { return scene_slew_; }
   // Accumulated since construction.
   [[nodiscard]] const EnergyBooks& books() const RELIEVO_RT { return books_; }
-  // Of the force that the method wants: below 1 only where the scene has leapt again and again.
+  // The share of the method's force that is passed on: below 1 only after the scene has leapt several times.
   [[nodiscard]] double share() const RELIEVO_RT;
 
  private:

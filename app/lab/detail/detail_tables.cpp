@@ -74,7 +74,7 @@ Outcome<void> writeDetail(std::span<const DetailFigures> figures, const std::str
   return table.write(path);
 }
 
-// Of the first kind of depth.
+// The words of the chart, with the figures of the first kind of depth.
 ChartWords detailWords(std::span<const DetailFigures> figures) {
   const DetailFigures& own = *std::find_if(figures.begin(), figures.end(), isPlayers);
   const auto grid = [&](auto&& wanted) -> const DetailFigures& {

@@ -26,7 +26,7 @@ class DrawingStage {
   // Draws the same once more.
   [[nodiscard]] Outcome<Duration> again();
   [[nodiscard]] DrawnPicture picture() const;
-  // Of the relief drawn last, silhouettes and all.
+  // The triangles of the relief that was drawn last, including its silhouettes.
   [[nodiscard]] std::size_t triangles() const {
     return level_.grid_step > 0 ? grid_->triangles(level_.grid_step) : renderer_->statistics().triangles;
   }

@@ -28,7 +28,7 @@ class LiveRun {
 
   // `hip.t_s` is the present moment; the surface is that of an earlier one (`feltS`). `truth` is left to the caller.
   [[nodiscard]] PlayedTick tick(const HipTick& hip);
-  // Of the last tick: the moment of the surface that was felt. Where the frame that it waits for has not come, that of
+  // The moment of the surface that was felt in the last tick. If the frame that it waits for has not come, the time of
   // the newest one, carried forward.
   [[nodiscard]] double feltS() const { return felt_s_; }
   [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }

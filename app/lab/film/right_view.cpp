@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kUnseen = -std::numeric_limits<float>::infinity();
 
-// Of one row: what each pixel of the right view shows.
+// One row of the right view: what each of its pixels shows.
 class RightRow {
  public:
   explicit RightRow(std::span<const float> disparity)

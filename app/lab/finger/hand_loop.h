@@ -14,7 +14,7 @@ namespace relievo {
 // The device alone, without dry friction and an encoder, pushed by a steady force: what the theory's bounds are about.
 [[nodiscard]] DeviceProfile deviceAlone(int delay_ticks);
 
-// Of a profile's forces, workspace and jitter nothing is looked at: the methods are led within them.
+// Ignores the profile's forces, workspace and jitter: the paths of the methods stay within them.
 class HandLoop {
  public:
   HandLoop(const DeviceProfile& profile, const glm::dvec3& position_mm);

@@ -66,7 +66,7 @@ struct Play {
   double peak_force_n = 10;
   // Where the device says that the finger is, given the force that it holds; nothing: the exchange fails.
   std::function<std::optional<glm::dvec3>(double t_s, const glm::dvec3& held_n)> finger;
-  // Of the film at the machine's time; by default it plays from 0 on.
+  // Which moment of the film is felt at the machine's time; by default the film plays from 0 on.
   struct Moment {
     double media_s = 0;
     double rate = 1;

@@ -27,7 +27,7 @@ inline constexpr std::array kDepthKinds{
 };
 inline constexpr const DepthKind& kEightBits = kDepthKinds[1];
 
-// Of the ticks from `from_s` on.
+// Sums the errors of the ticks from `from_s` on.
 [[nodiscard]] ForceErrorSum forceErrors(std::span<const PlayedTick> ticks, double from_s);
 
 // The smooth scenes on which stiffness x |dS/dt| stays under the scene's slew limit of 50 N/s: faster ones are not

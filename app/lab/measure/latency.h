@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What waiting for frames costs a live film in age, and what it is worth: a finger held on a nodding face.
+// How old the felt surface of a live film is, and how exact its force, by the number of frames that it waits for.
 #pragma once
 
 #include <vector>

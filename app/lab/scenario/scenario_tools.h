@@ -43,7 +43,7 @@ inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // 
 [[nodiscard]] glm::dvec3 normalOf(const Relief& relief, double x_mm, double y_mm, double t_s);
 // The point of a gently curved relief that is closest to the finger.
 [[nodiscard]] glm::dvec3 closestOn(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
-// Of a finger close under a nearly flat place: the distance along the normal; the force is stiffness times that.
+// The depth, along the normal, of a finger close under a nearly flat place; the force is stiffness times this.
 [[nodiscard]] glm::dvec3 depthOnFlat(const Relief& relief, const glm::dvec3& hip_mm, double t_s);
 
 [[nodiscard]] std::span<const StageTick> between(std::span<const StageTick> ticks, double from_s, double until_s);

@@ -141,7 +141,7 @@ struct PairReader::Impl {
     const StreamInfo* stream = nullptr;  // valid while the film is open
   };
   DepthBeside depth_beside;
-  // Of two tracks that say nothing of themselves the first is taken for the colour, unless both show that it is not.
+  // Two tracks without tags: the first is taken as the colour, unless the pictures of both show the opposite.
   enum class Exchange : std::uint8_t { No, Wanted, Done };
   Exchange exchange = Exchange::No;
   std::atomic<bool> remote{false};  // the colour's source; asked by any thread

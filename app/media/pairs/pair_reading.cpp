@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMostlyGray = 0.9, kAllGray = 0.99;
 
-// Of the file, or of its folder.
+// True if the name of the file or of its folder says that it is depth.
 bool namesDepth(const std::string& url) {
   return saysDepth(url) || saysDisparity(url) || saysDepth(url.substr(0, url.rfind('/')));
 }
@@ -227,7 +227,7 @@ Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);
-  // Of a later picture the samples are as stored.
+  // A picture after the first one still has its samples in the order of the file.
   if (look && look->pts != first.pts) look = inOrder(*look, reordering.order);
   if (!look) return failOn(depthUrl(), look.error());
   const bool guessed = !sources.depth() && options.packing == Packing::Auto && !isMarkedAsDepth(stream);

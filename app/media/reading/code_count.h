@@ -68,7 +68,7 @@ class CodeCount {
 // The order of the samples of a kind's pictures, of which `stored` is one: as stored if a reader of pictures has put a
 // Kinect's raw codes in order already.
 [[nodiscard]] SampleOrder orderOf(const KnownKind& kind, const Frame& stored);
-// Likewise; of no kind, or of one that is as stored, as the picture shows.
+// The same; if there is no kind, or the kind keeps the order of the file, the picture decides.
 [[nodiscard]] SampleOrder orderOf(const KnownKind* kind, const Frame& stored);
 
 // The picture with its 16-bit codes put in order, as gray: a copy; other pictures, those as stored and

@@ -47,7 +47,7 @@ std::size_t camerasIn(const std::string& text) {
   return count;
 }
 
-// Of the camera, from its pose: the picture's right points up or down.
+// True if the camera was turned on its side: in its pose, the right side of the picture points up or down.
 bool liesOnItsSide(const std::string& text) {
   constexpr double kMostly = 0.8;
   return std::abs(numberNamed(text, "e10").value_or(0)) > kMostly;

@@ -14,7 +14,7 @@ namespace relievo {
 struct PictureColor {
   double red = 0, green = 0, blue = 0;
 };
-// Of a sample, in the picture's own primaries and transfer.
+// The colour of a sample, in the primaries and transfer of the picture.
 [[nodiscard]] PictureColor colorAt(const Frame& picture, int c, int r) noexcept;
 
 // Statistics of about ten thousand evenly spaced samples. Shares are 0 to 1.

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Of one plane: rows, and bytes of a row that hold samples.
+// The rows of a plane, and the bytes of a row that hold samples.
 struct PlaneSize {
   int rows = 0;
   std::size_t bytes = 0;

@@ -71,7 +71,7 @@ class TrackReader {
   // first. A track that has no picture so early, or has ended before, may return a later one or none. With `key_step`
   // over 0 only key frames follow, at least `key_step` apart, each decoded by itself.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
-  // Of the leading track: VideoDecoder::leaveOutUnreferenced.
+  // As VideoDecoder::leaveOutUnreferenced, for the leading track.
   void leaveOutUnreferenced(bool leave_out);
   // For pictures that are decoded too late. Leaves out what lies before the leading track's last key frame at or before
   // `until`, and before the other tracks' last key frames at or before that one; packets are read as far as `until`,

@@ -38,7 +38,7 @@ std::optional<PlayerCommand> timeIn(std::string_view text) {
   return PlayerCommand{PlayerVerb::SeekShare, *value / 100};
 }
 
-// Of the audio and subtitle tracks.
+// The command for a track of sound or subtitles: the next one, "off", or a number.
 std::optional<PlayerCommand> trackIn(PlayerVerb verb, std::string_view text) {
   constexpr double kMostTracks = 100;
   if (text.empty()) return PlayerCommand{verb};

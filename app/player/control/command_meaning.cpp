@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Of a Step: what it does in either direction.
+// What a command with a step does, by the step's sign.
 std::string stepMeaning(const PlayerCommand& command, const VerbEntry& entry) {
   const bool up = command.value > 0;
   const double by = std::abs(command.value);

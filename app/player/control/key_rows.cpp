@@ -66,7 +66,7 @@ std::size_t tenths(const std::vector<std::pair<PlayerCommand, std::string>>& lin
   return count;
 }
 
-// Several tenths share a row.
+// Makes the rows of the page of keys. The keys that jump to 10 %, 20 %, .. of the film share one row.
 Rows rowsOf(const std::vector<std::pair<PlayerCommand, std::string>>& lines) {
   Rows rows;
   for (std::size_t i = 0; i < lines.size();) {

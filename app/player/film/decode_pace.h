@@ -26,7 +26,7 @@ class DecodePace {
   // The film stood still, or was sought: what was seen before tells nothing. What is left out stays left out.
   void pause() noexcept;
 
-  // Pictures that no other refers to are to be left out.
+  // True if pictures that no other refers to should be left out.
   [[nodiscard]] bool leavesOut() const noexcept { return leaves_out_; }
   // True when the reader should hurry now, told once.
   [[nodiscard]] bool takeHurry() noexcept { return std::exchange(hurry_, false); }

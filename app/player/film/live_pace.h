@@ -37,7 +37,7 @@ class LivePace {
   // How old the surface should be that is felt, and the moment of the film that this is.
   [[nodiscard]] Duration age() const noexcept;
   [[nodiscard]] MediaTime wanted(MonotonicTime now) const noexcept;
-  // When the next pair is to be expected.
+  // When the next pair is expected.
   [[nodiscard]] MonotonicTime next() const noexcept;
 
  private:

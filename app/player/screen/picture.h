@@ -82,7 +82,7 @@ class Picture {
   void changeStrength(double by) noexcept;  // of the depth, 0 to 2
   // What lies in the screen plane, in the volume: the rest stands before it or behind it.
   void changeScreenPlane(double by_mm) noexcept;
-  // Of the picture in its view, 1 to 4.
+  // Changes the size of the picture in its view, within 1 to 4.
   void changeZoom(double by) noexcept;
   // The width over the height that the picture is shown with; 0: its own.
   void setAspect(double aspect) noexcept;

@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// Where it is in the picture, in shares from its middle, right and up: inside within 0.5.
+// `across` and `up`: the finger's place, from the middle of the picture, to the right and up; inside from -0.5 to 0.5.
 struct FingerFacts {
   std::string haptic;  // the device's name; empty: none
   bool contact = false;

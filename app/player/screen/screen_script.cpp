@@ -27,7 +27,7 @@ std::vector<std::string> titleLines(const ScreenBar& bar, double width) {
   return folded(bar.title, cellsIn(width - 2 * kMargin, kTitleSize), 2);
 }
 
-// Of the dark ground that the bar stands on.
+// The height of the dark ground behind the bar.
 double barGround(std::size_t title_lines) noexcept {
   return kPointedTop - 16 - kTitleLine * static_cast<double>(title_lines);
 }

@@ -13,7 +13,7 @@ namespace relievo {
 // The script's own units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it.
 constexpr double kScreenRows = 720;
 
-// Of a view `aspect` as wide as high.
+// For a view that is `aspect` times as wide as it is high.
 [[nodiscard]] std::string screenHead(double aspect);
 // Lines as AssText takes them. Of the list of films, what lies under its posters.
 [[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height = 720);

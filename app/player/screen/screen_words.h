@@ -15,7 +15,7 @@ class ScreenWords {
  public:
   // True if the pictures differ from the last ones.
   bool draw(const ScreenContent& content, const TextFrame& frame);
-  // The next pictures are to be shown anew, even if they are the same.
+  // Draws the next pictures again, even if they are the same.
   void forget() noexcept { frame_.reset(); }
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// toml++ reads it; a number is set line by line, since no writer keeps comments.
+// Reads the configuration by toml++. Changes a number in the text itself, since toml++ would drop the comments.
 #include "app/player/setup/config_file.h"
 
 #include <toml++/toml.h>

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Nothing for --help and the like, which are no settings.
+// Nothing for --help and similar options, which are not settings.
 std::string keyOf(const CLI::Option& option) {
   if (!option.get_configurable()) return "";
   if (!option.get_lnames().empty()) return option.get_lnames().front();

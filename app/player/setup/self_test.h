@@ -21,7 +21,7 @@ struct SelfTestParts {
 };
 
 struct SelfTestLine {
-  enum class Verdict : std::uint8_t { Good, Note, Bad };  // Note: it goes without, less well
+  enum class Verdict : std::uint8_t { Good, Note, Bad };  // Note: works without it, but less well
   Verdict verdict = Verdict::Good;
   std::string thing, said;  // what it is; why not, and what to do
 };

@@ -69,7 +69,7 @@ class Sound {
   void noteShown(MediaTime picture, const MediaClock& clock);
   void close() noexcept;
 
-  // What is worth a line in the report, and what was done about it.
+  // Faults for the report, and what was done about each.
   struct News {
     std::string what, done;
   };

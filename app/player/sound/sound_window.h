@@ -28,7 +28,7 @@ class SoundWindow {
   [[nodiscard]] std::size_t read(std::int64_t first, std::span<float> out) const;
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.empty(); }
-  // Of a window that is not empty: the frame after the last one.
+  // The frame after the last one. The window must not be empty.
   [[nodiscard]] std::int64_t end() const noexcept { return pieces_.back().end; }
   [[nodiscard]] std::int64_t frameAt(MediaTime time) const noexcept;
   [[nodiscard]] MediaTime timeOf(std::int64_t frame) const noexcept;

@@ -80,7 +80,7 @@ class HapticSession {
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return running_; }
-  // Of the device that was last ready.
+  // The capabilities of the device that was ready last.
   [[nodiscard]] const HapticCapabilities& capabilities() const noexcept { return capabilities_; }
   // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
   [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }

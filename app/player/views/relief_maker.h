@@ -51,7 +51,7 @@ class ReliefMaker {
   // A film with this time between two pictures begins, or ends.
   void begin(Duration period);
   void end();
-  // The film goes on elsewhere: what was offered is forgotten.
+  // Forgets what was offered, since the film continues at another place.
   void jump();
   // The next picture; one that was offered before, or has no right view, changes nothing.
   void offer(const FramePair& pair);
@@ -59,7 +59,7 @@ class ReliefMaker {
   void passed(MediaTime shown);
   // The next relief that was made, in order, with its picture's time.
   [[nodiscard]] std::optional<Frame> take();
-  // Nothing is to be made and nothing to be taken.
+  // True if there is nothing to make and nothing to take.
   [[nodiscard]] bool idle() const;
   // A line that says that this machine makes fewer reliefs than the film has pictures; once a film.
   [[nodiscard]] std::optional<std::string> takeSlowness();

@@ -14,7 +14,7 @@ namespace relievo {
 
 struct FingerMark;
 
-// Of the sphere and the arrow, away from the surface and on it, and of the glow on the surface.
+// The colours of the sphere and the arrow, away from the surface and on it, and of the glow on the surface.
 struct FingerPaint {
   glm::vec3 free, contact, glow;
 };

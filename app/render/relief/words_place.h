@@ -45,7 +45,7 @@ class WordsPlace {
   void stayInScreen() noexcept { disparity_ = behind_ = 0; }
 
   [[nodiscard]] double disparity() const noexcept { return disparity_; }
-  // Of the nearest relief under the box, in the last picture.
+  // The disparity of the nearest relief behind the words, in the last picture.
   [[nodiscard]] double behind() const noexcept { return behind_; }
   [[nodiscard]] std::uint64_t lifted() const noexcept { return lifted_; }
   // The shift to the right of the words in the view of the eye at `eye_x_mm`.

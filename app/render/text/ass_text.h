@@ -27,7 +27,7 @@ class AssText {
   // "ReadOrder,Layer,Style,Name,MarginL,MarginR,MarginV,Effect,Text"; shown from `begin` on for `length`.
   void add(std::string_view line, Duration begin, Duration length);
   void removeLines();
-  // Of the letters, 1: as the script says.
+  // Scales the letters; 1 is the size that the script says.
   void setSize(double factor) noexcept;
 
   // What is shown at `time`, as few pictures that do not overlap, in `pictures`. False if they are the same as the last

@@ -39,7 +39,7 @@ class QuickDepth {
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
   // Whether both views show the same things in the present shot, and not the same picture.
   [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
-  // Whether the present shot's views are one picture twice: there is no depth to be had from it.
+  // True if both views of the present shot are the same picture, so that they give no depth.
   [[nodiscard]] bool isOnePicture() const noexcept { return one_picture_; }
   // Whether the right eye's view came first. The depth is that of the view that came first all the same.
   [[nodiscard]] bool areSwapped() const noexcept { return swapped_; }

@@ -37,7 +37,7 @@ class CellSums {
 
   // Codes in a sum.
   [[nodiscard]] std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(across_.taken * down_.taken); }
-  // Of the row's cells; until the next call.
+  // The values of the row's cells, valid until the next call.
   [[nodiscard]] const std::vector<std::uint32_t>& row(int r) {
     std::ranges::fill(sums_, 0U);
     for (int i = 0; i < down_.taken; ++i) {

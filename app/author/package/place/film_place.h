@@ -51,7 +51,7 @@ class FilmPlace {
   [[nodiscard]] Result<void> writeHeader(AVDictionary* options);
   // What went wrong when FFmpeg failed with this code.
   [[nodiscard]] Error failureOf(int code);
-  // Of the file that is written, if it is one.
+  // The error of the file that is written; nullopt without an error, or if it is no file.
   [[nodiscard]] virtual std::optional<Error> fileError() { return std::nullopt; }
   // What a failure without a reason of the file's means.
   [[nodiscard]] virtual const char* usualFailure() const noexcept { return kCannotWrite; }

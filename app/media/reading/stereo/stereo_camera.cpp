@@ -18,7 +18,7 @@ constexpr std::uint32_t kTop = 0xffff;
 constexpr double kOutliers = 0.002, kLower = 0.9, kHigher = 1.1;
 constexpr double kMostMm = 1e9;
 
-// Of a line "name=number" or "name=[number ..".
+// The number in a line "name=number" or "name=[number ..".
 std::optional<double> numberIn(const std::string& text, std::string_view name) {
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
     const std::size_t equals = at + name.size();
