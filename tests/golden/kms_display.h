@@ -16,7 +16,7 @@
 #include "tests/golden/picture_stage.h"
 #include "tests/support/machine/guest_screen.h"
 
-namespace relievo {
+namespace relievo::test {
 
 inline void fill(int x, int y, int width, int height, float red, float green, float blue) {
   glEnable(GL_SCISSOR_TEST);
@@ -28,9 +28,9 @@ inline void fill(int x, int y, int width, int height, float red, float green, fl
 
 class KmsDisplay : public testing::Test {
  protected:
-  explicit KmsDisplay(const char* driver = "virtio") : screen_(test::GuestScreen::find(driver)) {}
+  explicit KmsDisplay(const char* driver = "virtio") : screen_(GuestScreen::find(driver)) {}
   void SetUp() override {
-    if (screen_ == nullptr) GTEST_SKIP() << test::kNoGuest;
+    if (screen_ == nullptr) GTEST_SKIP() << kNoGuest;
     display_ = makeKmsDisplay(screen_->card());
   }
   void open(const DisplayConfig& config) {
@@ -49,7 +49,7 @@ class KmsDisplay : public testing::Test {
     EXPECT_LE(*shown, display_->capabilities().refresh_period);
   }
   // QEMU updates its picture in host time, which the guest cannot observe.
-  bool untilDump(const std::function<bool(const test::ScreenDump&)>& so) {
+  bool untilDump(const std::function<bool(const ScreenDump&)>& so) {
     MonotonicClock clock;
     for (int tries = 0; tries < 30; ++tries) {
       if (so(screen_->dump())) return true;
@@ -57,10 +57,9 @@ class KmsDisplay : public testing::Test {
     }
     return false;
   }
-  bool untilShows(int width, int height, int x, int y, const test::Rgb& color) {
-    return untilDump([&](const test::ScreenDump& dump) {
-      return dump.width == width && dump.height == height && dump.at(x, y) == color;
-    });
+  bool untilShows(int width, int height, int x, int y, const Rgb& color) {
+    return untilDump(
+        [&](const ScreenDump& dump) { return dump.width == width && dump.height == height && dump.at(x, y) == color; });
   }
   ErrorCode attendUntilRefused() {
     MonotonicClock clock;
@@ -72,7 +71,7 @@ class KmsDisplay : public testing::Test {
     return ErrorCode::InvalidState;
   }
 
-  std::unique_ptr<test::GuestScreen> screen_;
+  std::unique_ptr<GuestScreen> screen_;
   std::unique_ptr<Display> display_;
 };
 
@@ -83,4 +82,4 @@ class PacedKmsDisplay : public KmsDisplay {
 
 inline constexpr std::array<float, 3> kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1};
 
-}  // namespace relievo
+}  // namespace relievo::test

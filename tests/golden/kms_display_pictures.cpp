@@ -19,11 +19,10 @@
 #include "tests/support/film/depth_frames.h"
 #include "tests/support/machine/guest_screen.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 using namespace std::chrono_literals;
-using test::Rgb;
 
 TEST_F(KmsDisplay, OnTheScreenIsWhatWasDrawnLast) {
   open({1280, 800});
@@ -33,7 +32,7 @@ TEST_F(KmsDisplay, OnTheScreenIsWhatWasDrawnLast) {
       return Rgb{int(255 * c[0]), int(255 * c[1]), int(255 * c[2])};
     };
     ASSERT_TRUE(untilShows(1280, 800, 639, 400, expected(left)));
-    const test::ScreenDump dump = screen_->dump();
+    const ScreenDump dump = screen_->dump();
     for (const int y : {0, 400, 799}) {
       EXPECT_EQ(dump.at(0, y), expected(left));
       EXPECT_EQ(dump.at(639, y), expected(left));
@@ -45,9 +44,9 @@ TEST_F(KmsDisplay, OnTheScreenIsWhatWasDrawnLast) {
 
 // Compares the renderer's output on the screen with that off screen, which the golden tests check.
 TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
-  const test::Scene scene{
-      .color = test::makeRgbFrame(160, 100, [](int x, int y) { return Rgb{x, 2 * y, (x / 8 + y / 8) % 2 * 255}; }),
-      .depth = test::makeGrayFrame(
+  const Scene scene{
+      .color = makeRgbFrame(160, 100, [](int x, int y) { return Rgb{x, 2 * y, (x / 8 + y / 8) % 2 * 255}; }),
+      .depth = makeGrayFrame(
           160, 100, 8, MediaTime{},
           [](int x, int y) { return static_cast<std::uint32_t>(128 + 100 * std::sin(0.05 * x) * std::cos(0.05 * y)); }),
       .volume = {160, 100, 40},
@@ -59,7 +58,7 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   for (const KmsScreen& each : lookAtKmsScreens()) masters.emplace_back(::open(each.card.c_str(), O_RDWR | O_CLOEXEC));
   STAGE_OR_SKIP(stage, 640, 480);
   masters.clear();
-  const test::Image expected = stage.show(scene);
+  const Image expected = stage.show(scene);
 
   open({640, 480});
   {
@@ -76,7 +75,7 @@ TEST_F(KmsDisplay, TheReliefOnTheScreenIsThatOfTheOffscreenDisplay) {
   // one of the two.
   constexpr double kPixels = 640 * 480;
   double other = 0, sum = 0, light = 0;
-  untilDump([&](const test::ScreenDump& dump) {
+  untilDump([&](const ScreenDump& dump) {
     other = sum = kPixels;
     light = 0;
     if (dump.width != 640 || dump.height != 480) return false;
@@ -202,4 +201,4 @@ TEST_F(PacedKmsDisplay, APictureInADmaBufIsShownAsItIs) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

@@ -9,7 +9,7 @@
 #include "drivers/egl/egl.h"
 #include "tests/golden/kms_display.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 TEST_F(KmsDisplay, TheModeIsTheOneAskedForElseTheScreensFavourite) {
@@ -51,7 +51,7 @@ TEST_F(KmsDisplay, WhatWasOnTheScreenBeforeIsGivenBack) {
   show(kRed, kRed);
   display_->close();
   EXPECT_EQ(now(), before);
-  EXPECT_TRUE(untilDump([&](const test::ScreenDump& dump) { return dump.width == static_cast<int>(before[1]); }));
+  EXPECT_TRUE(untilDump([&](const ScreenDump& dump) { return dump.width == static_cast<int>(before[1]); }));
 }
 
 TEST_F(KmsDisplay, PulledOutItIsLostAndPutInItOpensAgain) {
@@ -69,7 +69,7 @@ TEST_F(KmsDisplay, PulledOutItIsLostAndPutInItOpensAgain) {
 }
 
 TEST_F(KmsDisplay, TheFirstCardThatHasAScreenIsTaken) {
-  const auto other = test::GuestScreen::find("vkms");
+  const auto other = GuestScreen::find("vkms");
   ASSERT_NE(other, nullptr);
   const auto any = makeKmsDisplay();
   screen_->plug(false);
@@ -204,4 +204,4 @@ TEST_F(KmsDisplay, FramePackingThatTheScreenDoesNotTakeIsRefused) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

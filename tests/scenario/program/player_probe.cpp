@@ -12,23 +12,22 @@
 #include "tests/support/film/ts_patch.h"
 #include "tests/support/machine/program.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 using nlohmann::json;
-using test::ClipTrack;
 using testing::HasSubstr;
 
 TEST_F(PlayerProgram, TellsTheDepthOfABroadcastByItsStreamType) {
   ClipTrack plain = color();
   plain.codec = "libx264";
   plain.tags.clear();
-  test::makeClip(at("film.ts"), {plain, plain});
-  ASSERT_GT(test::signalAsDepth(at("film.ts"), 0), 0);
-  const auto text = test::runProgram("relievo probe " + at("film.ts"), at(""));
+  makeClip(at("film.ts"), {plain, plain});
+  ASSERT_GT(signalAsDepth(at("film.ts"), 0), 0);
+  const auto text = runProgram("relievo probe " + at("film.ts"), at(""));
   ASSERT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("0 video h264 64 x 48, signalled as depth by its stream type, "));
-  const auto result = test::runProgram("relievo probe --json " + at("film.ts"), at(""));
+  const auto result = runProgram("relievo probe --json " + at("film.ts"), at(""));
   const json r = json::parse(result.out, nullptr, false);
   ASSERT_FALSE(r.is_discarded());
   EXPECT_EQ(r["tracks"][0]["auxiliary"], true);
@@ -37,17 +36,17 @@ TEST_F(PlayerProgram, TellsTheDepthOfABroadcastByItsStreamType) {
 }
 
 TEST_F(PlayerProgram, KindsOfRecordingsAreListedAndStated) {
-  const auto listed = test::runProgram("relievo play --as help", at(""));
+  const auto listed = runProgram("relievo play --as help", at(""));
   EXPECT_EQ(listed.exit_code, 0) << listed.err;
   for (const char* kind : {"\ntum ", "\nkitti ", "\nrecord3d ", "\nsun "}) EXPECT_THAT(listed.out, HasSubstr(kind));
-  expectOneLine(test::runProgram("relievo probe --as nothing film.mkv", at("")), 2, "unknown kind; see --as help");
-  expectOneLine(test::runProgram("relievo probe --calibration unit=1,polarity=near-high film.mkv", at("")), 2,
+  expectOneLine(runProgram("relievo probe --as nothing film.mkv", at("")), 2, "unknown kind; see --as help");
+  expectOneLine(runProgram("relievo probe --calibration unit=1,polarity=near-high film.mkv", at("")), 2,
                 "polarity=near-high; leave one out");
 
   ClipTrack slope = depth(3);
   slope.sample = [](int, int c, int, int) { return 5000u + 100u * static_cast<unsigned>(c); };
-  test::makeClip(at("film.mkv"), {color(3), slope});
-  const auto stated = test::runProgram("relievo probe --as tum " + at("film.mkv"), at(""));
+  makeClip(at("film.mkv"), {color(3), slope});
+  const auto stated = runProgram("relievo probe --as tum " + at("film.mkv"), at(""));
   EXPECT_EQ(stated.exit_code, 0) << stated.err;
   EXPECT_THAT(stated.out, HasSubstr("reading depth distances, 5000 codes a metre, 0.90 to 2.49 m"));
   EXPECT_THAT(stated.out, HasSubstr("unit=0.2: --as, said"));
@@ -58,9 +57,9 @@ TEST_F(PlayerProgram, ProbeTellsTheFilmAndTheDepthOfAFolder) {
   ClipTrack pictures = depth(3);
   pictures.codec = "png";
   pictures.pix_fmt = "gray16be";
-  test::makeClip(at("take/color.mkv"), {color(3)});
-  test::makeClip(at("take/depth-%d.png"), {pictures});
-  const auto told = test::runProgram("relievo probe " + at("take"), at(""));
+  makeClip(at("take/color.mkv"), {color(3)});
+  makeClip(at("take/depth-%d.png"), {pictures});
+  const auto told = runProgram("relievo probe " + at("take"), at(""));
   EXPECT_EQ(told.exit_code, 0) << told.err;
   EXPECT_THAT(told.out, HasSubstr("track   " + at("take/color.mkv") + " 0 video"));
   EXPECT_THAT(told.out, HasSubstr("track   " + at("take/depth-*.png") + " 0 video png"));
@@ -70,12 +69,12 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };
   plane.tags["DEPTH_LAW"] = "inverse";
-  test::makeClip(at("film.mkv"), {color(5), plane});
-  const auto text = test::runProgram("relievo probe " + at("film.mkv"), at(""));
+  makeClip(at("film.mkv"), {color(5), plane});
+  const auto text = runProgram("relievo probe " + at("film.mkv"), at(""));
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("law=inverse: container tags, said"));
   EXPECT_THAT(text.out, HasSubstr("codes 1000 to 65000"));
-  const auto as_json = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
+  const auto as_json = runProgram("relievo probe --json " + at("film.mkv"), at(""));
   const json j = json::parse(as_json.out, nullptr, false);
   ASSERT_FALSE(j.is_discarded());
   EXPECT_EQ(j["tracks"].size(), 2u);
@@ -84,14 +83,14 @@ TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   EXPECT_EQ(j["color"]["width"], 64);
 
   // The tracks are listed whatever is wrong with the film in them.
-  const auto refused = test::runProgram("relievo probe --calibration bits=8,near=9000 " + at("film.mkv"), at(""));
+  const auto refused = runProgram("relievo probe --calibration bits=8,near=9000 " + at("film.mkv"), at(""));
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.out, HasSubstr("0 video ffv1 64 x 48, yuv420p of 8 bits, 30 frames a second \"color\""));
   EXPECT_THAT(refused.out, HasSubstr("1 video ffv1 64 x 48, gray16le of 16 bits, 30 frames a second \"depth\""));
   EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
 
-  test::makeClip(at("flat.mkv"), {color(5)});
-  EXPECT_THAT(test::runProgram("relievo probe " + at("flat.mkv"), at("")).out, HasSubstr("give --depth"));
+  makeClip(at("flat.mkv"), {color(5)});
+  EXPECT_THAT(runProgram("relievo probe " + at("flat.mkv"), at("")).out, HasSubstr("give --depth"));
 }
 
 // A still relief, another one from the third picture on, and from the fifth on it rises fast: the plan is that of the
@@ -102,8 +101,8 @@ TEST_F(PlayerProgram, ProbeAnnouncesThePlanOfThePlayer) {
     const int wave = k < 2 ? 900 * c : 900 * (63 - c);
     return static_cast<std::uint32_t>(wave + 40 * r + 500 * std::max(k - 3, 0));
   };
-  test::makeClip(at("film.mkv"), {color(), moving});
-  const auto probed = test::runProgram("relievo probe --json " + at("film.mkv"), at(""));
+  makeClip(at("film.mkv"), {color(), moving});
+  const auto probed = runProgram("relievo probe --json " + at("film.mkv"), at(""));
   ASSERT_EQ(probed.exit_code, 0) << probed.err;
   const json said = json::parse(probed.out);
   ASSERT_EQ(play(at("film.mkv") + " --report " + at("r.json")).exit_code, 0);
@@ -112,4 +111,4 @@ TEST_F(PlayerProgram, ProbeAnnouncesThePlanOfThePlayer) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

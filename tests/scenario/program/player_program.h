@@ -16,10 +16,9 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/program.h"
 
-namespace relievo {
+namespace relievo::test {
 
 using nlohmann::json;
-using test::ClipTrack;
 
 inline ClipTrack color(int frames = 30) {
   return {.pix_fmt = "yuv420p", .width = 64, .height = 48, .frames = frames, .tags = {{"title", "color"}}};
@@ -31,8 +30,8 @@ inline ClipTrack depth(int frames = 30) {
 class PlayerProgram : public testing::Test {
  protected:
   // The mock display costs nothing; one test draws.
-  test::ProgramResult play(const std::string& words, const std::string& display = "mock") {
-    return test::runProgram("relievo play --display " + display + " " + words, at(""));
+  ProgramResult play(const std::string& words, const std::string& display = "mock") {
+    return runProgram("relievo play --display " + display + " " + words, at(""));
   }
   [[nodiscard]] std::string at(const std::string& name) const { return folder_ / name; }
   [[nodiscard]] std::string textOf(const std::string& name) const {
@@ -50,7 +49,7 @@ class PlayerProgram : public testing::Test {
       EXPECT_NE(std::find(put.begin(), put.end(), name), put.end()) << name;
     }
   }
-  static void expectOneLine(const test::ProgramResult& result, int exit_code, const std::string& thing) {
+  static void expectOneLine(const ProgramResult& result, int exit_code, const std::string& thing) {
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     EXPECT_THAT(result.err, testing::StartsWith("relievo: "));
     EXPECT_THAT(result.err, testing::HasSubstr(thing));
@@ -72,7 +71,7 @@ class PlayerProgram : public testing::Test {
             at("t.csv")};
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
-}  // namespace relievo
+}  // namespace relievo::test

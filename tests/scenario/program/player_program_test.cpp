@@ -18,24 +18,23 @@
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using test::ClipTrack;
 using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST_F(PlayerProgram, SelftestPassesWithoutAnyHardware) {
-  const auto said = test::runProgram("relievo selftest", at(""));
+  const auto said = runProgram("relievo selftest", at(""));
   EXPECT_EQ(said.exit_code, 0) << said.out << said.err;
   EXPECT_THAT(said.out, HasSubstr("good  display   offscreen, 640x360"));
   EXPECT_THAT(said.out, HasSubstr("good  touch     sim"));
 }
 
 TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
-  test::makeClip(at("film.mkv"), {color(), depth()});
+  makeClip(at("film.mkv"), {color(), depth()});
   const auto result =
       play(at("film.mkv") + " --size 320x180 --report " + at("r.json") + " --record " + at("t.csv"), "offscreen");
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -70,8 +69,8 @@ TEST_F(PlayerProgram, PlaysAClipThroughTheWholeStackAndReportsIt) {
 }
 
 TEST_F(PlayerProgram, PlaysTheSoundThatIsInTheClip) {
-  test::makeClip(at("film.mkv"), {color(60), depth(60)}, {},
-                 {{.codec = "aac", .rate_hz = 44100, .length = std::chrono::seconds(2)}});
+  makeClip(at("film.mkv"), {color(60), depth(60)}, {},
+           {{.codec = "aac", .rate_hz = 44100, .length = std::chrono::seconds(2)}});
   const auto result = play(at("film.mkv") + " --audio null --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
@@ -84,7 +83,7 @@ TEST_F(PlayerProgram, PlaysTheSoundThatIsInTheClip) {
 }
 
 TEST_F(PlayerProgram, PlaysWithoutASoundCardAndSaysSoOnce) {
-  test::makeClip(at("film.mkv"), {color(), depth()}, {}, {{}});
+  makeClip(at("film.mkv"), {color(), depth()}, {}, {{}});
   const auto result = play(at("film.mkv") + " --audio alsa:nothing --report " + at("r.json"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("no such sound card"));
@@ -100,8 +99,8 @@ TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
   odd_depth.fps_num = 10;
   odd_depth.width = 31;
   odd_depth.height = 29;
-  test::makeClip(at("c.mkv"), {odd_color});
-  test::makeClip(at("d.mkv"), {odd_depth});
+  makeClip(at("c.mkv"), {odd_color});
+  makeClip(at("d.mkv"), {odd_depth});
   const auto result = play(at("c.mkv") + " --depth " + at("d.mkv") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
@@ -110,7 +109,7 @@ TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
 }
 
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {
-  test::makeClip(at("film.mkv"), {color(600), depth(600)});
+  makeClip(at("film.mkv"), {color(600), depth(600)});
   std::ofstream(at("keys.txt")) << "1.0 FORWARD\n1.3 PAUSE\n1.6 REWIND\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
   const auto result = play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -124,7 +123,7 @@ TEST_F(PlayerProgram, ObeysAScriptedRemote) {
 }
 
 TEST_F(PlayerProgram, AFileCutInTheMiddlePlaysWhatIsThere) {
-  test::makeClip(at("film.mkv"), {color(), depth()});
+  makeClip(at("film.mkv"), {color(), depth()});
   fs::resize_file(at("film.mkv"), fs::file_size(at("film.mkv")) / 2);
   const auto result = play(at("film.mkv") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -142,7 +141,7 @@ TEST_F(PlayerProgram, AFileCutInTheMiddlePlaysWhatIsThere) {
 }
 
 TEST_F(PlayerProgram, WithoutDepthItSaysSoOnceAndPlays) {
-  test::makeClip(at("film.mkv"), {color(10)});
+  makeClip(at("film.mkv"), {color(10)});
   const auto result = play(at("film.mkv") + " --report " + at("r.json"));
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.err, HasSubstr("no depth"));
@@ -151,7 +150,7 @@ TEST_F(PlayerProgram, WithoutDepthItSaysSoOnceAndPlays) {
 }
 
 TEST_F(PlayerProgram, ADeviceThatCannotTickAsOftenIsToldOfInOneLineAndPlays) {
-  test::makeClip(at("film.mkv"), {color(10), depth(10)});
+  makeClip(at("film.mkv"), {color(10), depth(10)});
   const std::string words = at("film.mkv") + " --report " + at("r.json") + " --haptic ";
   const auto fast = play(words + "sim --rate 2000");
   EXPECT_EQ(fast.exit_code, 0) << fast.err;
@@ -168,7 +167,7 @@ TEST_F(PlayerProgram, TheSimulatedHandFindsWhatThereIsBesideAHole) {
   ClipTrack ring = depth(75);
   ring.pix_fmt = "gray";
   ring.sample = [](int, int c, int r, int) { return std::hypot(c - 32, r - 24) < 14 ? 0u : 128u; };
-  test::makeClip(at("film.mkv"), {color(75), ring});
+  makeClip(at("film.mkv"), {color(75), ring});
   const auto result = play(at("film.mkv") + " --calibration invalid=0 --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_GT(reportOf("r.json")["haptic"]["contact_share"].get<double>(), 0.0);
@@ -176,8 +175,8 @@ TEST_F(PlayerProgram, TheSimulatedHandFindsWhatThereIsBesideAHole) {
 
 // Ctrl-C in the middle of an endless film: code 0 and a whole report.
 TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
-  test::makeClip(at("film.mkv"), {color(), depth()});
-  test::Process player(endless("film.mkv"), at("said.txt"));
+  makeClip(at("film.mkv"), {color(), depth()});
+  Process player(endless("film.mkv"), at("said.txt"));
   while (!player.catches(SIGINT) && player.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   player.send(SIGINT);
@@ -186,9 +185,9 @@ TEST_F(PlayerProgram, ASignalEndsTheFilmInGoodOrder) {
 }
 
 TEST_F(PlayerProgram, ASecondSignalEndsItAtOnceAndLeavesNothing) {
-  test::makeClip(at("film.mkv"), {color(), depth()});
+  makeClip(at("film.mkv"), {color(), depth()});
   for (const int second : {SIGINT, SIGHUP}) {
-    test::Process player(endless("film.mkv"), at("said.txt"));
+    Process player(endless("film.mkv"), at("said.txt"));
     while (!player.catches(SIGHUP) && player.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     player.sendBoth(SIGTERM, second);
     EXPECT_LT(player.wait(), 0) << "ended by a signal";
@@ -210,7 +209,7 @@ TEST_F(PlayerProgram, PlaysRealFootage) {
 
 // Killed in the middle, it goes on where the film was, to within what is shown between two notes of the place.
 TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
-  test::makeClip(at("film.mkv"), {color(900), depth(900)});
+  makeClip(at("film.mkv"), {color(900), depth(900)});
   ::setenv("XDG_STATE_HOME", at("state").c_str(), 1);
   const auto kept = [this] {
     const json films = json::parse(textOf("state/relievo/resume.json"), nullptr, false);
@@ -218,9 +217,9 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
   };
   double left_s = 0;
   {
-    test::Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", at("film.mkv"), "--display", "mock",
-                          "--resume", "--record", at("t.csv")},
-                         at("stderr.txt"));
+    Process player({std::string(RELIEVO_BIN_DIR) + "/relievo", "play", at("film.mkv"), "--display", "mock", "--resume",
+                    "--record", at("t.csv")},
+                   at("stderr.txt"));
     for (int i = 0; i < 600 && kept() < 3; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     player.send(SIGKILL);
     EXPECT_EQ(player.wait(), -SIGKILL);
@@ -236,8 +235,8 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
 }
 
 TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
-  test::makeClip(at("one.mkv"), {color(), depth()});
-  test::makeClip(at("two.mkv"), {color(15), depth(15)});
+  makeClip(at("one.mkv"), {color(), depth()});
+  makeClip(at("two.mkv"), {color(15), depth(15)});
   std::ofstream(at("list.m3u")) << "#EXTM3U\n#EXTINF:1,One\none.mkv\nnone.mkv\ntwo.mkv\n";
   const auto result = play(at("list.m3u") + " --report " + at("r.json"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -248,4 +247,4 @@ TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

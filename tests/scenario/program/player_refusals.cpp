@@ -12,12 +12,11 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/program.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using test::ClipTrack;
 using testing::HasSubstr;
 
 TEST_F(PlayerProgram, RefusesAnAddressThatReadsWhatItIsNotToReadInOneLine) {
@@ -32,10 +31,10 @@ TEST_F(PlayerProgram, SaysInOneLineWhatIsWrongWithASource) {
   expectOneLine(play(at("empty.mkv")), 1, "empty.mkv");
   fs::create_directory(at("none"));
   expectOneLine(play(at("none")), 1, at("none"));
-  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  makeClip(at("film.mkv"), {color(3), depth(3)});
   expectOneLine(play(at("film.mkv") + " --depth " + at("missing.mkv")), 1, "missing.mkv");
   expectOneLine(play(at("film.mkv") + " --depth " + at("text.mkv")), 1, "text.mkv");
-  expectOneLine(test::runProgram("relievo probe " + at("text.mkv"), at("")), 1, "text.mkv");
+  expectOneLine(runProgram("relievo probe " + at("text.mkv"), at("")), 1, "text.mkv");
 }
 
 TEST_F(PlayerProgram, AFailureIsInTheReportAndLeavesNothingHalfDone) {
@@ -48,7 +47,7 @@ TEST_F(PlayerProgram, AFailureIsInTheReportAndLeavesNothingHalfDone) {
 }
 
 TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
-  test::makeClip(at("film.mkv"), {color(3), depth(3)});
+  makeClip(at("film.mkv"), {color(3), depth(3)});
   const auto report = play(at("film.mkv") + " --report " + at("missing/r.json") + " --record " + at("t.csv"));
   expectOneLine(report, 1, "missing/r.json");
   const auto record = play(at("film.mkv") + " --report " + at("r.json") + " --record " + at("missing/t.csv"));
@@ -62,12 +61,12 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
 // An @ that no rate follows is part of the file's name, for the guard as for the display.
 TEST_F(PlayerProgram, ACaptureOntoTheFilmIsRefusedWhateverItsName) {
   for (const char* film : {"a@b.mkv", "film.mkv"}) {
-    test::makeClip(at(film), {color(3), depth(3)});
+    makeClip(at(film), {color(3), depth(3)});
     for (const char* rate : {"", "@25"}) {
       const auto result = play(at(film), "offscreen:" + at(film) + rate);
       expectOneLine(result, 2, "would be overwritten");
     }
-    EXPECT_EQ(test::runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
+    EXPECT_EQ(runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
   }
 }
 
@@ -95,10 +94,10 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
 TEST_F(PlayerProgram, ACalibrationThatDoesNotFitTheFilmIsWrongUse) {
   ClipTrack bytes = depth(3);
   bytes.pix_fmt = "gray";
-  test::makeClip(at("film.mkv"), {color(3), bytes});
+  makeClip(at("film.mkv"), {color(3), bytes});
   for (const char* words : {"invalid=300", "bits=12", "near=6000"}) {
     expectOneLine(play(at("film.mkv") + " --calibration " + words), 2, "calibration");
-    const auto probed = test::runProgram("relievo probe " + at("film.mkv") + " --calibration " + words, at(""));
+    const auto probed = runProgram("relievo probe " + at("film.mkv") + " --calibration " + words, at(""));
     EXPECT_EQ(probed.exit_code, 2) << probed.err;
   }
   std::ofstream(at("camera.txt")) << "near = 6000\n";
@@ -118,7 +117,7 @@ TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
   const auto silent = play("udp://127.0.0.1:47391 --duration 1");
   EXPECT_EQ(silent.exit_code, 1);
   EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: --duration ended before the first picture came"));
-  test::makeClip(at("film.mkv"), {color(), depth()});
+  makeClip(at("film.mkv"), {color(), depth()});
   ::setenv("XDG_STATE_HOME", at("film.mkv").c_str(), 1);  // a file, where a folder is to be
   expectOneLine(play(at("film.mkv") + " --resume"), 1, "--resume " + at("film.mkv"));
   ::unsetenv("XDG_STATE_HOME");
@@ -130,4 +129,4 @@ TEST_F(PlayerProgram, AWrongKeyTableIsNamedByItsLine) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

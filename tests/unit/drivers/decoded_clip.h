@@ -12,7 +12,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 
-namespace relievo {
+namespace relievo::test {
 
 // Every code of 16 bits, without pattern (a multiplicative hash, its upper half).
 inline std::uint32_t scattered(int component, int column, int row, int frame) {
@@ -68,11 +68,11 @@ inline int wrongSamples(const Frame& frame, int k) {
     const std::uint32_t mask = (1u << frame.components[static_cast<std::size_t>(i)].bits) - 1;
     for (int r = 0; r < chromaRows(frame, i); ++r) {
       for (int c = 0; c < chromaColumns(frame, i); ++c) {
-        if (test::sampleAt(frame, i, c, r) != (scattered(i, c, r, k) & mask)) ++wrong;
+        if (sampleAt(frame, i, c, r) != (scattered(i, c, r, k) & mask)) ++wrong;
       }
     }
   }
   return wrong;
 }
 
-}  // namespace relievo
+}  // namespace relievo::test

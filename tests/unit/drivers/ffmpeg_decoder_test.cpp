@@ -11,13 +11,8 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/unit/drivers/decoded_clip.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
-
-using test::ClipTrack;
-using test::makeClip;
-using test::sampleAt;
-using test::TemporaryFolder;
 
 TEST(FfmpegDecoder, PicturesAreTheDecodersOwnMemory) {
   TemporaryFolder folder;
@@ -259,4 +254,4 @@ TEST(FfmpegDecoder, FlushForgetsAndStartsAgain) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

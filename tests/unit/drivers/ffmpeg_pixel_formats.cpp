@@ -15,12 +15,8 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
-namespace relievo {
+namespace relievo::test {
 namespace {
-
-using test::ClipTrack;
-using test::makeClip;
-using test::TemporaryFolder;
 
 struct Format {
   const char* codec;
@@ -153,4 +149,4 @@ TEST(FfmpegPixelFormats, TheFormatItselfMayMeanFullRange) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

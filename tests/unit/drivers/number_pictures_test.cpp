@@ -11,13 +11,13 @@
 #include "drivers/floats/floats.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/unit/drivers/read_film.h"
+#include "tests/unit/drivers/decoded_film.h"
 
 namespace relievo {
 namespace {
 
-using test::readFilm;
-using test::ReadFilm;
+using test::DecodedFilm;
+using test::decodeFilm;
 
 constexpr std::size_t kCols = 23, kRows = 17;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -78,7 +78,7 @@ TEST(Pfm, ComesTheRightWayUpInEitherByteOrderWithItsHoles) {
   for (const bool high_first : {false, true}) {
     SCOPED_TRACE(high_first);
     write(folder / "d.pfm", pfm(high_first, high_first ? "0.00333" : "-0.00333"));
-    const ReadFilm picture = readFilm(folder / "d.pfm");
+    const DecodedFilm picture = decodeFilm(folder / "d.pfm");
     EXPECT_EQ(picture.stream.codec, "pfm");
     ASSERT_EQ(picture.frames.size(), 1u);
     expectValues(picture.frames[0], slopeWithHole);
@@ -90,7 +90,7 @@ TEST(Pfm, AnyRangeSurvives) {
   for (const double factor : {1e-6, 1e-3, 100.0, 1e6}) {
     SCOPED_TRACE(factor);
     write(folder / "d.pfm", pfm(false, "-1", factor));
-    const ReadFilm picture = readFilm(folder / "d.pfm");
+    const DecodedFilm picture = decodeFilm(folder / "d.pfm");
     ASSERT_EQ(picture.frames.size(), 1u);
     const Frame& frame = picture.frames[0];
     EXPECT_LT(frame.value_per_code, 1e-4 * factor * slope(kRows - 1, kCols - 1));
@@ -101,7 +101,7 @@ TEST(Pfm, AnyRangeSurvives) {
 TEST(Pfm, NegativeDisparitiesAreTurned) {
   const test::TemporaryFolder folder;
   write(folder / "d.pfm", pfm(false, "-1", -1));
-  const ReadFilm picture = readFilm(folder / "d.pfm");
+  const DecodedFilm picture = decodeFilm(folder / "d.pfm");
   ASSERT_EQ(picture.frames.size(), 1u);
   EXPECT_LT(picture.frames[0].value_per_code, 0);
   // Minus infinity and infinity are holes alike.
@@ -111,7 +111,7 @@ TEST(Pfm, NegativeDisparitiesAreTurned) {
 TEST(Pfm, ASeriesKeepsItsFirstScale) {
   const test::TemporaryFolder folder;
   for (int i = 1; i <= 3; ++i) write(folder / ("d" + std::to_string(i) + ".pfm"), pfm(false, "-1", i == 3 ? 10 : i));
-  const ReadFilm film = readFilm(folder / "d%d.pfm");
+  const DecodedFilm film = decodeFilm(folder / "d%d.pfm");
   ASSERT_EQ(film.frames.size(), 3u);
   expectValues(film.frames[1], [](std::size_t r, std::size_t c) { return 2 * slopeWithHole(r, c); });
   EXPECT_EQ(film.frames[2].value_per_code, film.frames[0].value_per_code);
@@ -126,7 +126,7 @@ TEST(Pfm, ThreeComponentsAreColourUnlessTheyAreEqual) {
       for (int k = 0; k < 3; ++k) file += bytesOf(equal ? 0.25F * static_cast<float>(i) : k == i ? 1.0F : 0.0F, false);
     }
     write(folder / "c.pfm", file);
-    const ReadFilm picture = readFilm(folder / "c.pfm");
+    const DecodedFilm picture = decodeFilm(folder / "c.pfm");
     ASSERT_EQ(picture.frames.size(), 1u);
     const Frame& frame = picture.frames[0];
     ASSERT_EQ(frame.model, equal ? ColorModel::Gray : ColorModel::Rgb);
@@ -150,12 +150,12 @@ TEST(Dpt, RowsComeFromTheTopAndTheSkyIsAHole) {
     }
   }
   for (const char* const name : {"frame_0001.dpt", "frame_0002.dpt"}) write(folder / name, dpt(kRows, samples));
-  const ReadFilm picture = readFilm(folder / "frame_0001.dpt");
+  const DecodedFilm picture = decodeFilm(folder / "frame_0001.dpt");
   EXPECT_EQ(picture.stream.codec, "dpt");
   EXPECT_EQ(picture.stream.width, static_cast<int>(kCols));
   ASSERT_EQ(picture.frames.size(), 1u);
   expectValues(picture.frames[0], slopeWithHole);
-  EXPECT_EQ(readFilm(folder / "").frames.size(), 2u) << "a folder of them";
+  EXPECT_EQ(decodeFilm(folder / "").frames.size(), 2u) << "a folder of them";
 }
 
 TEST(Dpt, OpticalFlowAndCutFilesAreNoDepth) {
@@ -163,7 +163,7 @@ TEST(Dpt, OpticalFlowAndCutFilesAreNoDepth) {
   const std::string samples(kRows * kCols * sizeof(float), '\x3f');
   for (const std::string& bytes : {samples + samples, samples.substr(4)}) {
     write(folder / "frame_0001.dpt", dpt(kRows, bytes));
-    const ReadFilm picture = readFilm(folder / "frame_0001.dpt");
+    const DecodedFilm picture = decodeFilm(folder / "frame_0001.dpt");
     EXPECT_TRUE(picture.frames.empty());
     EXPECT_EQ(picture.damaged, 1u);
   }
@@ -210,7 +210,7 @@ TEST(Npy, FloatsComeInEveryWidthOrderAndByteOrder) {
          }) {
       SCOPED_TRACE(type + (fortran ? " Fortran" : " C"));
       write(folder / "z.npy", npy(type, fortran, shape(), bytes, fortran ? 2 : 1));
-      const ReadFilm picture = readFilm(folder / "z.npy");
+      const DecodedFilm picture = decodeFilm(folder / "z.npy");
       ASSERT_EQ(picture.frames.size(), 1u);
       const double factor = type == "<i4" ? 1e4 : 1;
       expectValues(picture.frames[0],
@@ -227,7 +227,7 @@ TEST(Npy, NumbersOfHalfPrecisionAreReadExactly) {
     bytes += bytesOf(static_cast<std::uint16_t>(half), false);
   }
   write(folder / "z.npy", npy("<f2", false, "2, 3", bytes));
-  const ReadFilm picture = readFilm(folder / "z.npy");
+  const DecodedFilm picture = decodeFilm(folder / "z.npy");
   ASSERT_EQ(picture.frames.size(), 1u);
   const Frame& frame = picture.frames[0];
   EXPECT_NEAR(valueAt(frame, 0, 0), 1, frame.value_per_code);
@@ -248,7 +248,7 @@ TEST(Npy, WholeNumbersThatFitAreCodesAsTheyAre) {
        }) {
     SCOPED_TRACE(type);
     write(folder / "z.npy", npy(type, false, shape() + ", 1", bytes));
-    const ReadFilm picture = readFilm(folder / "z.npy");
+    const DecodedFilm picture = decodeFilm(folder / "z.npy");
     ASSERT_EQ(picture.frames.size(), 1u);
     EXPECT_EQ(picture.frames[0].value_per_code, 0);
     expectValues(
@@ -262,7 +262,7 @@ TEST(Npy, AnArrayOfPicturesIsAFilm) {
   for (int i = 0; i < 4; ++i) bytes += numbers<float>(false, false);
   bytes.resize(bytes.size() - 10);  // the last picture is cut off
   write(folder / "z.npy", npy("<f4", false, "4, " + shape(), bytes));
-  const ReadFilm film = readFilm(folder / "z.npy");
+  const DecodedFilm film = decodeFilm(folder / "z.npy");
   ASSERT_EQ(film.frames.size(), 3u);
   expectValues(film.frames[2], slope);
   EXPECT_EQ(film.frames[2].pts - film.frames[0].pts, 2 * (film.frames[1].pts - film.frames[0].pts));
@@ -283,7 +283,7 @@ TEST(Npy, PointsAreTheirDistances) {
       }
     }
     write(folder / "z.npy", npy("<f4", false, shape() + ", 3", bytes));
-    const ReadFilm film = readFilm(folder / "z.npy");
+    const DecodedFilm film = decodeFilm(folder / "z.npy");
     ASSERT_EQ(film.frames.size(), 1u);
     if (normals) EXPECT_EQ(film.frames[0].model, ColorModel::Rgb);
     else expectValues(film.frames[0], [](std::size_t r, std::size_t c) { return r == 3 ? 0 : slope(r, c); });
@@ -310,7 +310,7 @@ TEST(FloatCodesOfAFilm, AValueFarBeyondAllOthersMeansNothingThere) {
     std::string bytes = numbers<float>(false, false);
     for (std::size_t i = 0; i < 40; ++i) std::memcpy(&bytes[4 * i], &far, 4);
     write(folder / "z.npy", npy("<f4", false, shape(), bytes));
-    const ReadFilm picture = readFilm(folder / "z.npy");
+    const DecodedFilm picture = decodeFilm(folder / "z.npy");
     ASSERT_EQ(picture.frames.size(), 1u);
     expectValues(picture.frames[0], [](std::size_t r, std::size_t c) { return r * kCols + c < 40 ? 0 : slope(r, c); });
     EXPECT_LT(picture.frames[0].value_per_code, 0.005);

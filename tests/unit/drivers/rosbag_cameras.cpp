@@ -10,13 +10,10 @@
 #include "tests/support/film/recording/recorded_frames.h"
 #include "tests/unit/drivers/rosbag_films.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 using namespace std::chrono_literals;
-using test::BagImage;
-using test::BagWriter;
-using test::framesOf;
 
 // RealSense's layout: mono16 is depth, 16UC1 and 8UC1 are infrared, and stamps may come from two clocks.
 std::string realSenseBag(std::int64_t color_clock_ns, float unit_m) {
@@ -26,7 +23,7 @@ std::string realSenseBag(std::int64_t color_clock_ns, float unit_m) {
   const auto infrared = bag.connect(device + "Infrared_1/image/data", "sensor_msgs/Image");
   const auto depth = bag.connect(device + "Depth_0/image/data", "sensor_msgs/Image");
   const auto color = bag.connect("/device_0/sensor_1/Color_0/image/data", "sensor_msgs/Image");
-  bag.write(unit, 0, test::ByteWriter().add(0.0001F).bytes());
+  bag.write(unit, 0, ByteWriter().add(0.0001F).bytes());
   for (int i = 0; i < kPictures; ++i) {
     BagImage z = depthImage(i), light = depthImage(i), picture = colorImage(i, "bgr8");
     z.encoding = "mono16";
@@ -34,9 +31,9 @@ std::string realSenseBag(std::int64_t color_clock_ns, float unit_m) {
     light.encoding = "16UC1";
     picture.stamp_ns += color_clock_ns;
     const std::int64_t recorded = 1000 * kMs + i * 33 * kMs;  // since the device was started
-    bag.write(infrared, recorded, test::bagImage(light));
-    bag.write(depth, recorded, test::bagImage(z));
-    bag.write(color, recorded + 4 * kMs, test::bagImage(picture));
+    bag.write(infrared, recorded, bagImage(light));
+    bag.write(depth, recorded, bagImage(z));
+    bag.write(color, recorded + 4 * kMs, bagImage(picture));
   }
   return bag.finish();
 }
@@ -67,9 +64,8 @@ TEST_F(RosbagSource, StampsOfTwoClocksGiveWayToTheTimesOfRecording) {
 constexpr double kHalf = 0.70710678118654752;  // sine and cosine of 45 degrees
 constexpr std::array<double, 4> kUpright{0, 0, 0, 1}, kQuarterTurn{0, 0, kHalf, kHalf};
 
-const test::BagCamera kDepthCamera{
-    .cols = kCols, .rows = kRows, .focal_x = 30, .focal_y = 31, .center_x = 11, .center_y = 8};
-test::BagCamera colorCamera(const std::string& model) {
+const BagCamera kDepthCamera{.cols = kCols, .rows = kRows, .focal_x = 30, .focal_y = 31, .center_x = 11, .center_y = 8};
+BagCamera colorCamera(const std::string& model) {
   return {.cols = 2 * kCols,
           .rows = 2 * kRows,
           .focal_x = 60,
@@ -89,14 +85,14 @@ TEST_F(RosbagSource, RealSensesCamerasRegisterTheDepth) {
     BagImage z = depthImage(0);
     z.encoding = "mono16";
     z.unit_m = 0.0005F;
-    bag.write(bag.connect(depth + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(z));
-    bag.write(bag.connect(color + "/image/data", "sensor_msgs/Image"), 1, test::bagImage(colorImage(0)));
-    bag.write(bag.connect(depth + "/info/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
+    bag.write(bag.connect(depth + "/image/data", "sensor_msgs/Image"), 1, bagImage(z));
+    bag.write(bag.connect(color + "/image/data", "sensor_msgs/Image"), 1, bagImage(colorImage(0)));
+    bag.write(bag.connect(depth + "/info/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(kDepthCamera));
     bag.write(bag.connect(color + "/info/camera_info", "sensor_msgs/CameraInfo"), 1,
-              test::bagCameraInfo(colorCamera("Inverse Brown Conrady")));
-    bag.write(bag.connect(depth + "/tf/0", "geometry_msgs/Transform"), 1, test::bagTransform({0.01, 0, 0}, kUpright));
+              bagCameraInfo(colorCamera("Inverse Brown Conrady")));
+    bag.write(bag.connect(depth + "/tf/0", "geometry_msgs/Transform"), 1, bagTransform({0.01, 0, 0}, kUpright));
     bag.write(bag.connect(color + "/tf/" + reference, "geometry_msgs/Transform"), 1,
-              test::bagTransform({0.05, 0.02, 0}, kQuarterTurn));
+              bagTransform({0.05, 0.02, 0}, kQuarterTurn));
     const auto source = open(bag.finish());
     const auto& tags = streamOf(*source, depth + "/image/data")->tags;
     const bool related = *reference == '0';
@@ -124,14 +120,13 @@ TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
     BagImage z = depthImage(0), picture = colorImage(0);
     z.frame = "depth_optical";
     picture.frame = color_frame;
-    bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, test::bagImage(z));
-    bag.write(bag.connect("/cam/rgb/image_raw", "sensor_msgs/Image"), 1, test::bagImage(picture));
-    bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(kDepthCamera));
-    bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, test::bagCameraInfo(colorCamera(lens)));
+    bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, bagImage(z));
+    bag.write(bag.connect("/cam/rgb/image_raw", "sensor_msgs/Image"), 1, bagImage(picture));
+    bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(kDepthCamera));
+    bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(colorCamera(lens)));
     const auto frames = bag.connect("/tf_static", "tf2_msgs/TFMessage");
-    bag.write(frames, 1, test::bagFrameMotion("base", "depth_optical", test::bagTransform({0.1, 0, 0}, kUpright)));
-    bag.write(frames, 1,
-              test::bagFrameMotion("base", "/color_optical", test::bagTransform({0.1, 0.03, 0}, kQuarterTurn)));
+    bag.write(frames, 1, bagFrameMotion("base", "depth_optical", bagTransform({0.1, 0, 0}, kUpright)));
+    bag.write(frames, 1, bagFrameMotion("base", "/color_optical", bagTransform({0.1, 0.03, 0}, kQuarterTurn)));
     return streamOf(*open(bag.finish()), "/cam/depth/image_raw")->tags;
   };
   const auto tags = tagsOf("plumb_bob", "color_optical");
@@ -154,9 +149,9 @@ TEST_F(RosbagSource, OfTwoCamerasDepthAndColourAreOfTheSame) {
   const auto left_depth = bag.connect("/left/depth/image", "sensor_msgs/Image");
   const auto right_depth = bag.connect("/right/depth/image", "sensor_msgs/Image");
   for (int i = 0; i < kPictures; ++i) {
-    for (const auto color : {left_color, right_color}) bag.write(color, kFirstStamp, test::bagImage(colorImage(i)));
-    if (i > 2) bag.write(left_depth, kFirstStamp, test::bagImage(depthImage(i)));
-    bag.write(right_depth, kFirstStamp, test::bagImage(depthImage(i)));
+    for (const auto color : {left_color, right_color}) bag.write(color, kFirstStamp, bagImage(colorImage(i)));
+    if (i > 2) bag.write(left_depth, kFirstStamp, bagImage(depthImage(i)));
+    bag.write(right_depth, kFirstStamp, bagImage(depthImage(i)));
   }
   const auto source = open(bag.finish());
   for (const StreamInfo& stream : source->streams()) {
@@ -166,4 +161,4 @@ TEST_F(RosbagSource, OfTwoCamerasDepthAndColourAreOfTheSame) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

@@ -15,7 +15,7 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/recording/bag_writer.h"
 
-namespace relievo {
+namespace relievo::test {
 
 inline constexpr std::uint32_t kCols = 24, kRows = 16;
 inline constexpr int kPictures = 12;
@@ -46,7 +46,7 @@ inline std::string depthData(int picture, const Layout& layout = {}) {
   }
   return data;
 }
-inline test::BagImage depthImage(int picture, const Layout& layout = {}) {
+inline BagImage depthImage(int picture, const Layout& layout = {}) {
   return {.stamp_ns = kFirstStamp + picture * kPeriod,
           .cols = kCols,
           .rows = kRows,
@@ -56,7 +56,7 @@ inline test::BagImage depthImage(int picture, const Layout& layout = {}) {
           .data = depthData(picture, layout)};
 }
 // Red at the top left, blue elsewhere.
-inline test::BagImage colorImage(int picture, const std::string& encoding = "rgb8") {
+inline BagImage colorImage(int picture, const std::string& encoding = "rgb8") {
   std::string data;
   for (std::uint32_t i = 0; i < kCols * kRows; ++i) {
     const bool red = i < 4;
@@ -86,7 +86,7 @@ class RosbagSource : public testing::Test {
     return source;
   }
   Result<void> openingOf(const std::string& bytes) { return makeRosbagSource()->open(save(bytes)); }
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   int saved_ = 0;
 };
 
@@ -98,7 +98,7 @@ inline const StreamInfo* streamOf(const MediaSource& source, const std::string& 
 }
 
 inline std::uint32_t sample(const Frame& frame, std::uint32_t c, std::uint32_t r, int component = 0) {
-  return test::sampleAt(frame, component, static_cast<int>(c), static_cast<int>(r));
+  return sampleAt(frame, component, static_cast<int>(c), static_cast<int>(r));
 }
 
 inline void expectDepth(const std::vector<Frame>& frames, int first = 0, int count = kPictures) {
@@ -114,4 +114,4 @@ inline void expectDepth(const std::vector<Frame>& frames, int first = 0, int cou
   }
 }
 
-}  // namespace relievo
+}  // namespace relievo::test

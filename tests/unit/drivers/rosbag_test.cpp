@@ -9,13 +9,10 @@
 #include "tests/support/film/recording/recorded_frames.h"
 #include "tests/unit/drivers/rosbag_films.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
 
 using namespace std::chrono_literals;
-using test::BagImage;
-using test::BagWriter;
-using test::framesOf;
 
 struct RosTopics {
   std::string color = "/camera/color/image_raw", depth = "/camera/depth/image_raw";
@@ -30,9 +27,9 @@ std::string rosBag(const std::string& compression = "none", bool indexed = true,
   bag.endChunk();
   for (int i = 0; i < kPictures; ++i) {
     const std::int64_t recorded = kFirstStamp + i * kPeriod + 40 * kMs;
-    bag.write(depth, recorded, test::bagImage(depthImage(i)));
+    bag.write(depth, recorded, bagImage(depthImage(i)));
     bag.write(imu, recorded, "nothing");
-    bag.write(color, recorded + 5 * kMs, test::bagImage(colorImage(i)));
+    bag.write(color, recorded + 5 * kMs, bagImage(colorImage(i)));
     if (i % 3 == 2) bag.endChunk();
   }
   return bag.finish(indexed);
@@ -115,7 +112,7 @@ TEST_F(RosbagSource, TakesBigEndianAndPaddedRows) {
   for (const Layout layout : {Layout{.big_endian = true}, Layout{.padding = 10}}) {
     BagWriter bag;
     const auto depth = bag.connect("/depth", "sensor_msgs/Image");
-    for (int i = 0; i < kPictures; ++i) bag.write(depth, kFirstStamp, test::bagImage(depthImage(i, layout)));
+    for (int i = 0; i < kPictures; ++i) bag.write(depth, kFirstStamp, bagImage(depthImage(i, layout)));
     const auto source = open(bag.finish());
     expectDepth(framesOf(*source, source->streams()[0]));
   }
@@ -129,7 +126,7 @@ TEST_F(RosbagSource, FloatsAreMetres) {
     data.append(reinterpret_cast<const char*>(&metres), sizeof metres);
   }
   bag.write(depth, kFirstStamp,
-            test::bagImage({.stamp_ns = 5, .cols = 2, .rows = 2, .step = 8, .encoding = "32FC1", .data = data}));
+            bagImage({.stamp_ns = 5, .cols = 2, .rows = 2, .step = 8, .encoding = "32FC1", .data = data}));
   const auto source = open(bag.finish());
   const auto tags = source->streams()[0].tags;
   EXPECT_EQ(tags.at("DEPTH_UNIT"), "1000");
@@ -153,7 +150,7 @@ TEST_F(RosbagSource, RefusesBagsWithoutPicturesAndOtherVersionsInOneLine) {
   BagWriter odd;
   BagImage image = depthImage(0);
   image.encoding = "64FC9";
-  odd.write(odd.connect("/depth", "sensor_msgs/Image"), 0, test::bagImage(image));
+  odd.write(odd.connect("/depth", "sensor_msgs/Image"), 0, bagImage(image));
   EXPECT_EQ(openingOf(odd.finish()).error().code, ErrorCode::Unsupported);
 
   EXPECT_EQ(openingOf("#ROSBAG V1.2\n").error().code, ErrorCode::Unsupported);
@@ -178,7 +175,7 @@ TEST_F(RosbagSource, ALargeBagIsNeverReadWhole) {
     const auto depth = bag.connect("/depth", "sensor_msgs/Image");
     const auto points = bag.connect("/points", "sensor_msgs/PointCloud2");
     for (int i = 0; i < kChunks; ++i) {
-      bag.write(depth, kFirstStamp + i * kPeriod, test::bagImage(depthImage(i)));
+      bag.write(depth, kFirstStamp + i * kPeriod, bagImage(depthImage(i)));
       bag.writeHole(points, kFirstStamp, 16 << 20);
     }
     const std::string path = folder_ / "large.bag";
@@ -204,4 +201,4 @@ TEST_F(RosbagSource, IsToldByItsFirstBytes) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

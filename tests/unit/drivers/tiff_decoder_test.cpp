@@ -9,13 +9,13 @@
 
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/float_tiff.h"
-#include "tests/unit/drivers/read_film.h"
+#include "tests/unit/drivers/decoded_film.h"
 
 namespace relievo {
 namespace {
 
-using test::readFilm;
-using test::ReadFilm;
+using test::DecodedFilm;
+using test::decodeFilm;
 
 // A slope of 10 m and values that are none, in a picture with odd sides.
 test::FloatTiff zBuffer() {
@@ -56,7 +56,7 @@ TEST(TiffDecoder, NumbersKeepTheirValuesHoweverTheyAreStored) {
   for (const test::FloatTiff& one : {plain, deflated, lzw, tiled}) {
     SCOPED_TRACE(one.compression + one.tile);
     test::writeFloatTiff(folder / "z.tif", one);
-    const ReadFilm z = readFilm(folder / "z.tif");
+    const DecodedFilm z = decodeFilm(folder / "z.tif");
     EXPECT_EQ(z.decoder, "tiff");
     ASSERT_EQ(z.frames.size(), 1u);
     expectSame(z.frames[0], one);
@@ -68,7 +68,7 @@ TEST(TiffDecoder, LargeNumbersAreNoHoles) {
   test::FloatTiff z = zBuffer();
   for (float& sample : z.samples) sample *= sample < 1e9F ? 40 : 1;  // disparities of 8 to 400
   test::writeFloatTiff(folder / "z.tif", z);
-  const ReadFilm disparities = readFilm(folder / "z.tif");
+  const DecodedFilm disparities = decodeFilm(folder / "z.tif");
   EXPECT_EQ(disparities.decoder, "tiff");
   ASSERT_EQ(disparities.frames.size(), 1u);
   const Frame& frame = disparities.frames[0];
@@ -87,7 +87,7 @@ TEST(TiffDecoder, NumberedFilesAreAFilmWithoutTheDamagedOnes) {
     cut.seekp(4);
     cut.write("\xff\xff\xff\x7f", 4);  // the directory lies beyond the file's end
   }
-  const ReadFilm film = readFilm(folder / "z%d.tif");
+  const DecodedFilm film = decodeFilm(folder / "z%d.tif");
   EXPECT_EQ(film.decoder, "tiff");
   EXPECT_EQ(film.damaged, 1u);
   ASSERT_EQ(film.frames.size(), 4u);

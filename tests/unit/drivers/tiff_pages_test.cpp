@@ -8,13 +8,13 @@
 
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/float_tiff.h"
-#include "tests/unit/drivers/read_film.h"
+#include "tests/unit/drivers/decoded_film.h"
 
 namespace relievo {
 namespace {
 
-using test::readFilm;
-using test::ReadFilm;
+using test::DecodedFilm;
+using test::decodeFilm;
 
 test::FloatTiff pageOf(int number, std::uint32_t side = 40) {
   test::FloatTiff page{.width = side, .height = side / 2};
@@ -46,7 +46,7 @@ TEST(TiffPages, AreAFilmInAnyLayoutAndAnotherSizeIsLeftOut) {
       page.compression = number % 2 == 1 ? COMPRESSION_LZW : COMPRESSION_NONE;
       (number == 1 ? test::writeFloatTiff : test::addFloatPage)(path, page);
     }
-    const ReadFilm film = readFilm(path);
+    const DecodedFilm film = decodeFilm(path);
     ASSERT_EQ(film.frames.size(), 3u);
     for (std::size_t i = 0; i < 3; ++i) expectPage(film.frames[i], i == 0 ? 1 : static_cast<int>(i) + 2);
     EXPECT_EQ(film.frames[2].pts - film.frames[0].pts, 2 * film.stream.frame_period);
@@ -82,13 +82,13 @@ TEST(TiffPages, WithHighBytesFirstComeAsTheyAre) {
   const test::TemporaryFolder folder;
   const std::string file = swappedPages({700, 1234, 40000});
   std::ofstream(folder / "p.tif", std::ios::binary) << file;
-  const ReadFilm film = readFilm(folder / "p.tif");
+  const DecodedFilm film = decodeFilm(folder / "p.tif");
   ASSERT_EQ(film.frames.size(), 3u);
   EXPECT_EQ(test::sampleAt(film.frames[0], 0, 3, 3), 700u);
   EXPECT_EQ(test::sampleAt(film.frames[2], 0, 15, 15), 40000u);
 
   std::ofstream(folder / "cut.tif", std::ios::binary) << file.substr(0, file.size() - 100);
-  const ReadFilm cut = readFilm(folder / "cut.tif");
+  const DecodedFilm cut = decodeFilm(folder / "cut.tif");
   EXPECT_EQ(cut.frames.size(), 2u);
   EXPECT_EQ(cut.missed, 1u);
 }
@@ -99,7 +99,7 @@ TEST(TiffPages, ThatFollowThemselvesEnd) {
   constexpr std::size_t kNext = 8 + 2 + 120 + 2 + 120 + 4 + 512;  // behind the second page's directory
   for (std::size_t i = 0; i < 4; ++i) file[kNext + i] = i == 3 ? '\x08' : '\0';
   std::ofstream(folder / "p.tif", std::ios::binary) << file;
-  EXPECT_EQ(readFilm(folder / "p.tif").frames.size(), 2u);
+  EXPECT_EQ(decodeFilm(folder / "p.tif").frames.size(), 2u);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace relievo::test {
 
-struct ReadFilm {
+struct DecodedFilm {
   StreamInfo stream;
   std::vector<Frame> frames;
   std::vector<std::string> notes;
@@ -23,8 +23,8 @@ struct ReadFilm {
 };
 
 // Of a film of one stream.
-inline ReadFilm readFilm(const std::string& url) {
-  ReadFilm film;
+inline DecodedFilm decodeFilm(const std::string& url) {
+  DecodedFilm film;
   const auto source = drivers::makeMediaSource(url);
   EXPECT_TRUE(source->open(url));
   if (source->streams().empty()) return film;

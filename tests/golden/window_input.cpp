@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window on a desktop: its keys, its mouse, and what is dropped on it.
+#include <SDL.h>
+#include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/egl/egl.h"
+#include "drivers/window/window_input.h"
+#include "tests/golden/window_display.h"
+#include "tests/support/machine/x_screen.h"
+
+namespace relievo::test {
+namespace {
+
+using namespace std::chrono_literals;
+using Action = KeyEvent::Action;
+
+TEST_F(WindowDisplay, KeysArriveWithTheCodesOfLinux) {
+  screen_->focus(window_);
+  const struct {
+    const char* symbol;
+    int code;
+  } keys[] = {{"space", KEY_SPACE},
+              {"Right", KEY_RIGHT},
+              {"Left", KEY_LEFT},
+              {"Return", KEY_ENTER},
+              {"Escape", KEY_ESC},
+              {"s", KEY_S},
+              {"F1", KEY_F1},
+              {"KP_Enter", KEY_KPENTER},
+              {"0", KEY_0},
+              {"Page_Up", KEY_PAGEUP},
+              {"bracketleft", KEY_LEFTBRACE},
+              {"period", KEY_DOT},
+              {"XF86AudioPlay", KEY_PLAYPAUSE}};
+  for (const auto& [symbol, code] : keys) {
+    clock_.advance(1s);
+    screen_->tap(symbol);
+    const KeyEvent down = nextKey(), up = nextKey();
+    EXPECT_EQ(down.code, code) << symbol;
+    EXPECT_EQ(down.action, Action::Press) << symbol;
+    EXPECT_EQ(down.time, clock_.now());
+    EXPECT_EQ(up.code, code) << symbol;
+    EXPECT_EQ(up.action, Action::Release) << symbol;
+  }
+}
+
+// On a keyboard of the USA: shift and 3, /, comma.
+TEST_F(WindowDisplay, SignsArriveAsWhatIsPrinted) {
+  screen_->focus(window_);
+  for (const auto& [symbol, code] :
+       {std::pair{"3", KEY_NUMERIC_POUND}, {"slash", KEY_QUESTION}, {"comma", KEY_PREVIOUS}}) {
+    screen_->key("Shift_L", true);
+    EXPECT_EQ(nextKey().code, KEY_LEFTSHIFT);
+    screen_->tap(symbol);
+    EXPECT_EQ(nextKey().code, code) << symbol;
+    EXPECT_EQ(nextKey().code, code) << symbol;
+    screen_->key("Shift_L", false);
+    EXPECT_EQ(nextKey().code, KEY_LEFTSHIFT);
+  }
+}
+
+TEST_F(WindowDisplay, AHeldKeyRepeatsUntilItIsLetGo) {
+  screen_->focus(window_);
+  screen_->key("Right", true);
+  EXPECT_EQ(nextKey().action, Action::Press);
+  EXPECT_EQ(nextKey().action, Action::Repeat);
+  EXPECT_EQ(nextKey().action, Action::Repeat);
+  screen_->key("Right", false);
+  KeyEvent last;
+  EXPECT_TRUE(until([&] {
+    while (const auto key = input_->keys.tryPop()) last = *key;
+    return last.action == Action::Release;
+  }));
+}
+
+// One millimetre a pixel.
+TEST_F(WindowDisplay, TheMouseIsToldByWhatItPointsAt) {
+  EXPECT_FALSE(mouse().ray) << "there is no picture yet";
+  display_->setViews({.views = {{.half_width_mm = 100, .half_height_mm = 60}}, .screen_z_mm = 20, .depth_mm = 40});
+  screen_->moveMouse(place_.x + 150, place_.y + 20);
+  EXPECT_TRUE(until([&] { return pointsAt(50.5, 39.5); }));
+  EXPECT_EQ(mouse().ray->screen_z_mm, 20);
+  display_->setViews({.views = {{.half_width_mm = 200, .half_height_mm = 120}}});
+  EXPECT_TRUE(pointsAt(101, 79)) << "the mouse has not moved, the picture has";
+  screen_->resize(window_, 300, 150);
+  EXPECT_TRUE(until([&] { return pointsAt(400 * (150.5 / 300 - 0.5), 240 * (0.5 - 20.5 / 150)); }))
+      << mouse().ray->screen_mm.x << " " << mouse().ray->screen_mm.y;
+  for (const unsigned wheel : {4u, 4u, 4u, 5u}) {
+    screen_->button(wheel, true);
+    screen_->button(wheel, false);
+  }
+  EXPECT_TRUE(until([&] { return mouse().notches == 2; })) << mouse().notches;
+  const auto down = [&] { return std::array{mouse().left, mouse().middle, mouse().right}; };
+  const std::array<bool, 3> none{};
+  for (unsigned button = 1; button <= 3; ++button) {
+    std::array<bool, 3> one{};
+    one[button - 1] = true;
+    screen_->button(button, true);
+    EXPECT_TRUE(until([&] { return down() == one; })) << button;
+    screen_->button(button, false);
+    EXPECT_TRUE(until([&] { return down() == none; })) << button;
+  }
+}
+
+TEST_F(WindowDisplay, ADoubleClickAsksForTheWholeScreen) {
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 50, place_.y + 50);
+  for (int click = 0; click < 2; ++click) {
+    EXPECT_EQ(screen_->takeFullScreenWish(), std::nullopt);
+    screen_->button(1, true);
+    EXPECT_TRUE(until([&] { return mouse().left; }));
+    screen_->button(1, false);
+    EXPECT_TRUE(until([&] { return !mouse().left; }));
+  }
+  EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == 1; }));
+}
+
+TEST_F(WindowDisplay, OtherMouseButtonsAreKeys) {
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 50, place_.y + 50);
+  for (const auto& [button, code] : {std::pair{3U, KEY_PLAYPAUSE}, {8U, KEY_PREVIOUS}, {9U, KEY_NEXT}}) {
+    screen_->button(button, true);
+    screen_->button(button, false);
+    std::optional<KeyEvent> press;
+    EXPECT_TRUE(until([&] { return (press = input_->keys.tryPop()).has_value(); })) << button;
+    ASSERT_TRUE(press);
+    EXPECT_EQ(press->code, code);
+    EXPECT_EQ(press->action, KeyEvent::Action::Press);
+    const auto release = input_->keys.tryPop();
+    ASSERT_TRUE(release);
+    EXPECT_EQ(release->action, KeyEvent::Action::Release);
+  }
+}
+
+TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {
+  EXPECT_TRUE(display_->takeDropped().empty());
+  for (const char* path : {"/films/a b.mkv", "/films/c.mkv"}) {
+    SDL_Event event{};
+    event.drop = {.type = SDL_DROPFILE, .timestamp = 0, .file = SDL_strdup(path), .windowID = 1};
+    ASSERT_EQ(SDL_PushEvent(&event), 1);
+  }
+  ASSERT_TRUE(display_->attend());
+  EXPECT_EQ(display_->takeDropped(), (std::vector<std::string>{"/films/a b.mkv", "/films/c.mkv"}));
+  EXPECT_TRUE(display_->takeDropped().empty());
+}
+
+TEST_F(WindowDisplay, WhatTwoWindowsHearIsNotMixedUp) {
+  const auto input = std::make_shared<WindowInput>();
+  const auto other = makeWindowDisplay(input, clock_);
+  ASSERT_TRUE(other->open({50, 50}));
+  screen_->focus(window_);
+  screen_->tap("a");
+  std::optional<KeyEvent> key;
+  EXPECT_TRUE(until([&] { return other->attend() && (key = input_->keys.tryPop()); })) << "whichever is attended to";
+  EXPECT_EQ(key.value_or(KeyEvent{}).code, KEY_A);
+  EXPECT_FALSE(input->keys.tryPop());
+}
+
+}  // namespace
+}  // namespace relievo::test
