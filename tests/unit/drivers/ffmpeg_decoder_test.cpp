@@ -2,6 +2,7 @@
 // The FFmpeg decoder: references to pictures, colour signalling, damage, seeks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <set>

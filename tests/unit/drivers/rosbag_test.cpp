@@ -2,6 +2,9 @@
 // Bags that the test writes itself: ROS's own layout, every packing, cut off, without an index.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "drivers/rosbag/rosbag.h"
