@@ -25,13 +25,13 @@ constexpr const char* kBadValue =
 constexpr const char* kNoValue = "calibration is written KEY=VALUE,KEY=VALUE,..";
 constexpr const char* kFarBeforeNear = "calibration has far <= near; give both in mm, far the larger";
 constexpr const char* kUnitIsLinear =
-    "calibration has unit=, by which codes are distances, and another law than linear; leave one out";
+    "calibration has both unit=, for distances, and another law than linear; leave one out";
 constexpr const char* kUnitHasCodes =
-    "calibration has unit=, by which codes are distances from near to far, and codes=; leave codes= out";
+    "calibration has both unit=, for distances from near to far, and codes=; leave codes= out";
 constexpr const char* kUnitIsNearLow =
-    "calibration has unit=, by which codes are distances, low where near, and polarity=near-high; leave one out";
+    "calibration has both unit=, for distances (low is near), and polarity=near-high; leave one out";
 constexpr const char* kUnitIsLuma =
-    "calibration has unit=, by which codes are distances, but the depth is coded as a hue from near to far; "
+    "calibration has unit=, for distances, but the depth is coded as a hue from near to far; "
     "give near and far instead of unit";
 constexpr const char* kTooManyBits = "bits= is more than the depth's samples have; leave bits= out of the calibration";
 constexpr const char* kNoSuchCode =

@@ -125,7 +125,7 @@ class PicturesSource final : public MediaSource {
     return described ? **described : std::unexpected(described.error());
   }
 
-  // As the first picture that can be described.
+  // Describes the stream by its first picture that can be read.
   Result<StreamInfo> describeStream(const std::vector<TimedPicture>& pictures, bool depth) {
     Result<StreamInfo> stream = fail(ErrorCode::Corrupt, "");
     for (std::size_t i = 0; i < std::min(pictures.size(), kMostTries) && !stream; ++i) {

@@ -30,7 +30,7 @@ Result<std::vector<Painting>> parsePaintings(std::string_view word) {
     if (!painting)
       return fail(ErrorCode::InvalidArgument, "give SECONDS=FILE for each painting, such as 0=a.png,12.5=b.png");
     if (!paintings.empty() && painting->from_s <= paintings.back().from_s) {
-      return fail(ErrorCode::InvalidArgument, "the times of paintings increase; give the earliest first");
+      return fail(ErrorCode::InvalidArgument, "the times of paintings must increase; give the earliest first");
     }
     paintings.push_back(std::move(*painting));
     at = comma + 1;

@@ -188,11 +188,11 @@ class Smoothness {
     }
     return {print("Force spectrum on a nodding face, %s, %d segments of 10 s",
                   hold == FingerHold::FixedPoint ? "finger held at a point" : "a resting hand", segments_),
-            "15 frames/s, 8 bits: at the frame rate each method lies so far under holding the frame (so many frames "
-            "ahead): " +
+            "15 frames/s, 8 bits. How far each method's peak at the frame rate lies below that of holding the frame, "
+            "with its frames of look-ahead: " +
                 reading +
-                "; the paper has 18 dB for its own. Smoothing every frame calms the steps of depth between "
-                "the movements of the scene; at the frame rate it is the law of time that counts." +
+                "; the paper says 18 dB for its method. Smoothing every frame calms the steps of depth between "
+                "the movements of the scene; at the frame rate, the interpolation in time decides." +
                 lostWords(setting)};
   }
 

@@ -45,7 +45,7 @@ class FilmShelf {
 
   // Stops at both ends.
   void selectBy(std::ptrdiff_t films) noexcept;
-  // The last one for what is beyond it.
+  // Selects a film by its number; the last film if there are not so many.
   void select(std::size_t film) noexcept;
 
  private:

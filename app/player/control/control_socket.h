@@ -28,7 +28,7 @@ class ControlSocket {
   // replaced. InvalidState where somebody does, InvalidArgument for a path that is too long or something else than a
   // socket, Io.
   [[nodiscard]] static Outcome<std::unique_ptr<ControlSocket>> listen(const std::string& path);
-  // Takes the path away, unless another has it by now.
+  // Deletes the socket file, unless another program has replaced it.
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;
   ControlSocket& operator=(const ControlSocket&) = delete;

@@ -15,7 +15,7 @@
 
 namespace relievo {
 
-// In the film's order; times in shares of its length.
+// The bar under the picture. Times are shares of the film's length, from 0 to 1.
 struct ScreenBar {
   std::string title;
   std::string times;   // "1:23 / 1:02:05   4x"

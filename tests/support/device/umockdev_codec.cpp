@@ -147,6 +147,14 @@ int UmockdevCodec::answerTo(unsigned long request, UMockdevIoctlData* data) {
       value.value = static_cast<int>(kind_.needed);
       return 0;
     }
+    default:
+      return answerToStreaming(request, data);
+  }
+}
+
+int UmockdevCodec::answerToStreaming(unsigned long request, UMockdevIoctlData* data) {
+  void* const argument = data->data;
+  switch (request) {
     case VIDIOC_SUBSCRIBE_EVENT:
       return static_cast<v4l2_event_subscription*>(argument)->type == V4L2_EVENT_SOURCE_CHANGE ? 0 : EINVAL;
     case VIDIOC_DQEVENT: {

@@ -70,6 +70,7 @@ class UmockdevCodec {
   static constexpr std::uint32_t wholePages(std::uint32_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
   bool answer(UMockdevIoctlClient* client);
   [[nodiscard]] int answerTo(unsigned long request, UMockdevIoctlData* data);
+  [[nodiscard]] int answerToStreaming(unsigned long request, UMockdevIoctlData* data);
   [[nodiscard]] int answerToBuffers(unsigned long request, UMockdevIoctlData* data);
   [[nodiscard]] bool isPackets(std::uint32_t type) const;
   void fillFormat(v4l2_format& format) const;
