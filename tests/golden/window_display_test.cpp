@@ -4,6 +4,7 @@
 #include <GLES3/gl3.h>
 #include <SDL.h>
 #include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
 
 #include <cmath>
 #include <optional>
@@ -108,6 +109,23 @@ TEST_F(WindowDisplay, BeforeAFilmItFitsTheScreenInItsShape) {
   const unsigned long tall = screen_->find("a tall film - relievo");
   EXPECT_TRUE(until([&] { return screen_->place(tall)->height == 442; })) << screen_->place(tall)->height;
   EXPECT_EQ(screen_->place(tall)->width, 442) << "a title of 38 pixels finds room";
+}
+
+TEST_F(WindowDisplay, OtherMouseButtonsAreKeys) {
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 50, place_.y + 50);
+  for (const auto& [button, code] : {std::pair{3U, KEY_PLAYPAUSE}, {8U, KEY_PREVIOUS}, {9U, KEY_NEXT}}) {
+    screen_->button(button, true);
+    screen_->button(button, false);
+    std::optional<KeyEvent> press;
+    EXPECT_TRUE(until([&] { return (press = input_->keys.tryPop()).has_value(); })) << button;
+    ASSERT_TRUE(press);
+    EXPECT_EQ(press->code, code);
+    EXPECT_EQ(press->action, KeyEvent::Action::Press);
+    const auto release = input_->keys.tryPop();
+    ASSERT_TRUE(release);
+    EXPECT_EQ(release->action, KeyEvent::Action::Release);
+  }
 }
 
 TEST_F(WindowDisplay, WithAFilmsSizeItComesUpWithTheFirstFrame) {

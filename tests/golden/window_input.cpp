@@ -121,23 +121,6 @@ TEST_F(WindowDisplay, ADoubleClickAsksForTheWholeScreen) {
   EXPECT_TRUE(until([&] { return screen_->takeFullScreenWish() == 1; }));
 }
 
-TEST_F(WindowDisplay, OtherMouseButtonsAreKeys) {
-  screen_->focus(window_);
-  screen_->moveMouse(place_.x + 50, place_.y + 50);
-  for (const auto& [button, code] : {std::pair{3U, KEY_PLAYPAUSE}, {8U, KEY_PREVIOUS}, {9U, KEY_NEXT}}) {
-    screen_->button(button, true);
-    screen_->button(button, false);
-    std::optional<KeyEvent> press;
-    EXPECT_TRUE(until([&] { return (press = input_->keys.tryPop()).has_value(); })) << button;
-    ASSERT_TRUE(press);
-    EXPECT_EQ(press->code, code);
-    EXPECT_EQ(press->action, KeyEvent::Action::Press);
-    const auto release = input_->keys.tryPop();
-    ASSERT_TRUE(release);
-    EXPECT_EQ(release->action, KeyEvent::Action::Release);
-  }
-}
-
 TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {
   EXPECT_TRUE(display_->takeDropped().empty());
   for (const char* path : {"/films/a b.mkv", "/films/c.mkv"}) {
