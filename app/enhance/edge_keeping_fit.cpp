@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside a run of samples the fit is a mean, from prefix sums; near the run's ends it is computed in full.
+// Several lines side by side, so that vector instructions fit them together. Where no run ends within reach, the fit is
+// the mean of a window that slides along the line; near the run's ends it is computed in full.
 #include "app/enhance/edge_keeping_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/core.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "app/enhance/in_bands.h"
@@ -12,73 +16,180 @@
 namespace relievo {
 namespace {
 
-class LineFit {
- public:
-  LineFit(int length, int reach) : reach_(reach), sums_(length + 1), before_(length) {}
+constexpr int kLines = 16;  // a cache line of samples
 
-  // A run ends after each sample marked 1 in `ends`; the last one always is.
-  void row(const std::uint8_t* ends, float* codes, int length) {
-    std::copy_n(codes, length, before_.begin());
-    for (int begin = 0; begin < length;) {
-      int end = begin + 1;
-      while (ends[end - 1] == 0) ++end;
-      if (end - begin > 2) run(before_.data() + begin, codes + begin, end - begin);
-      begin = end;
+// Where a picture's lines begin, and how its samples follow each other. Columns lie side by side, rows in a row.
+struct Layout {
+  int lines = 0, length = 0, cols = 0;
+  bool columns = false;
+
+  [[nodiscard]] std::ptrdiff_t at(int line, int i) const {
+    return columns ? static_cast<std::ptrdiff_t>(i) * cols + line : static_cast<std::ptrdiff_t>(line) * cols + i;
+  }
+};
+
+class LineFits {
+ public:
+  LineFits(const Layout& layout, int reach)
+      : layout_(layout),
+        reach_(reach),
+        codes_(static_cast<std::size_t>(layout.length)),
+        fitted_(codes_.size()),
+        of_count_(2 * static_cast<std::size_t>(reach) + 2) {
+    for (std::size_t n = 2; n < of_count_.size(); ++n) {
+      const auto count = static_cast<double>(n);
+      of_count_[n] = {1 / count, 12 / (count * (count * count - 1))};
     }
+  }
+
+  // Fits `count` lines from `first` on. A run ends after each sample marked 1 in `ends`; the last one always does.
+  void fit(const std::uint8_t* ends, float* codes, int first, int count) {
+    exchange(first, count, [codes](std::ptrdiff_t at, float& code) { code = codes[at]; }, codes_);
+    inside();
+    findStops(ends, first, count);
+    for (int k = 0; k < count; ++k) {
+      int begin = 0;
+      for (const int stop : stops_[k]) atEnds(k, std::exchange(begin, stop), stop);
+      atEnds(k, begin, layout_.length);
+    }
+    exchange(first, count, [codes](std::ptrdiff_t at, float& code) { codes[at] = code; }, fitted_);
   }
 
  private:
-  // If the window is symmetric, the line's value is the mean.
-  void run(const float* codes, float* out, int length) {
-    const int inner_end = length - reach_;
-    for (int i = 0; i < std::min(reach_, length); ++i) out[i] = atEnd(codes, i, length);
-    for (int i = std::max(inner_end, reach_); i < length; ++i) out[i] = atEnd(codes, i, length);
-    if (inner_end <= reach_) return;
-    for (int i = 0; i < length; ++i) sums_[i + 1] = sums_[i] + static_cast<double>(codes[i]);
-    const double share = 1.0 / (2 * reach_ + 1);
-    for (int i = reach_; i < inner_end; ++i) {
-      out[i] = static_cast<float>((sums_[i + reach_ + 1] - sums_[i - reach_]) * share);
+  using Rows = std::vector<std::array<float, kLines>>;
+  struct OfCount {
+    double mean = 0, slope = 0;
+  };
+
+  // As if no run ended: the line's value in the middle of its window is the mean.
+  void inside() {
+    std::array<double, kLines> sums{};
+    const int length = layout_.length;
+    if (length <= 2 * reach_) return;
+    for (int i = 0; i < 2 * reach_; ++i) {
+      for (int k = 0; k < kLines; ++k) sums[k] += static_cast<double>(codes_[i][k]);
+    }
+    for (int i = reach_; i < length - reach_; ++i) {
+      const auto &ahead = codes_[i + reach_], &behind = codes_[i - reach_];
+      for (int k = 0; k < kLines; ++k) sums[k] += static_cast<double>(ahead[k]);
+      for (int k = 0; k < kLines; ++k) fitted_[i][k] = static_cast<float>(sums[k] * of_count_.back().mean);
+      for (int k = 0; k < kLines; ++k) sums[k] -= static_cast<double>(behind[k]);
     }
   }
 
-  [[nodiscard]] float atEnd(const float* codes, int i, int length) const {
-    const int a = std::max(i - reach_, 0), b = std::min(i + reach_, length - 1);
-    const float n = static_cast<float>(b - a + 1), middle = 0.5F * static_cast<float>(a + b);
-    float sum = 0, moment = 0;
-    for (int k = a; k <= b; ++k) {
-      const float code = codes[k] - codes[i];  // keeps the sums small
+  // Between the picture and the lines side by side, with steps that the compiler knows where it can.
+  template <class Move>
+  void exchange(int first, int count, Move&& move, Rows& rows) {
+    const std::ptrdiff_t begin = layout_.at(first, 0), cols = layout_.cols;
+    if (layout_.columns && count == kLines) {
+      for (int i = 0; i < layout_.length; ++i) {
+        for (int k = 0; k < kLines; ++k) move(begin + i * cols + k, rows[i][k]);
+      }
+    } else if (layout_.columns) {
+      for (int i = 0; i < layout_.length; ++i) {
+        for (int k = 0; k < count; ++k) move(begin + i * cols + k, rows[i][k]);
+      }
+    } else {
+      for (int i = 0; i < layout_.length; ++i) {
+        for (int k = 0; k < count; ++k) move(begin + i + k * cols, rows[i][k]);
+      }
+    }
+  }
+
+  // The samples at which the lines' later runs begin.
+  void findStops(const std::uint8_t* ends, int first, int count) {
+    for (auto& stops : stops_) stops.clear();
+    if (layout_.columns) {
+      for (int i = 0; i + 1 < layout_.length; ++i) {
+        const std::uint8_t* const here = ends + layout_.at(first, i);
+        unsigned any = 0;
+        for (int k = 0; k < count; ++k) any |= here[k];
+        if (any == 0) continue;
+        for (int k = 0; k < count; ++k) {
+          if (here[k] != 0) stops_[k].push_back(i + 1);
+        }
+      }
+      return;
+    }
+    for (int k = 0; k < count; ++k) {
+      const std::uint8_t *const begin = ends + layout_.at(first + k, 0), *const last = begin + layout_.length - 1;
+      for (const std::uint8_t* at = begin; (at = std::find(at, last, 1)) != last;) {
+        stops_[k].push_back(static_cast<int>(++at - begin));
+      }
+    }
+  }
+
+  // The samples within reach of a run's ends, by the line of least squares through what the run has of their window.
+  void atEnds(int line, int begin, int end) {
+    double sum = 0, moment = 0;  // about `begin`, of codes less `base`
+    int a = begin, b = begin;    // the window is [a, b)
+    const double base = static_cast<double>(codes_[begin][line]);
+    const auto add = [&](int i, double sign) {
+      const double code = sign * (static_cast<double>(codes_[i][line]) - base);
       sum += code;
-      moment += code * (static_cast<float>(k) - middle);
+      moment += code * (i - begin);
+    };
+    for (int i = begin; i < end; ++i) {
+      if (i - begin == reach_ && i < end - reach_) {
+        i = end - reach_;
+        a = b = i - reach_;
+        sum = moment = 0;
+      }
+      while (b < std::min(i + reach_ + 1, end)) add(b++, 1);
+      while (a < i - reach_) add(a++, -1);
+      const int n = b - a;
+      if (n < 3) {  // the line through two samples
+        fitted_[i][line] = codes_[i][line];
+        continue;
+      }
+      const double middle = 0.5 * (a + b - 1);
+      const double slope = (moment - sum * (middle - begin)) * of_count_[n].slope;
+      fitted_[i][line] = static_cast<float>(base + sum * of_count_[n].mean + slope * (i - middle));
     }
-    return codes[i] + sum / n + 12 * moment / (n * (n * n - 1)) * (static_cast<float>(i) - middle);
   }
 
+  Layout layout_;
   int reach_;
-  std::vector<double> sums_;
-  std::vector<float> before_;
+  Rows codes_, fitted_;  // by sample along the lines
+  std::array<std::vector<int>, kLines> stops_;
+  std::vector<OfCount> of_count_;
 };
 
-// 1 at the last sample before a step, a hole or the end of its row.
-cv::Mat endsOfRuns(const cv::Mat& codes, const cv::Mat& holes) {
-  cv::Mat ends(codes.size(), CV_8U);
-  inBands(codes.rows, [&](int first, int last) {
-    for (int r = first; r < last; ++r) {
-      const float* const z = codes.ptr<float>(r);
-      const auto* const hole = holes.ptr<std::uint8_t>(r);
-      auto* const end = ends.ptr<std::uint8_t>(r);
-      for (int c = 0; c + 1 < codes.cols; ++c) {
-        end[c] = static_cast<std::uint8_t>((std::abs(z[c + 1] - z[c]) > DepthMap::kStep) | (hole[c] != hole[c + 1]));
+// 1 at the last sample before a step or a hole, along rows and along columns.
+struct Ends {
+  std::vector<std::uint8_t> across, down;
+};
+
+Ends endsOfRuns(const DepthMap& map) {
+  Ends ends{std::vector<std::uint8_t>(map.size()), std::vector<std::uint8_t>(map.size())};
+  inBands(map.rows, [&](int first, int last) {
+    const auto compare = [&](std::vector<std::uint8_t>& marks, int row, std::ptrdiff_t away, int count) {
+      const float *const z = &map.codes[map.at(0, row)], *const other = z + away;
+      const std::uint8_t *const hole = &map.holes[map.at(0, row)], *const other_hole = hole + away;
+      std::uint8_t* const end = &marks[map.at(0, row)];
+      for (int c = 0; c < count; ++c) {
+        end[c] = static_cast<std::uint8_t>(static_cast<int>(std::abs(other[c] - z[c]) > DepthMap::kStep) |
+                                           (hole[c] ^ other_hole[c]));
       }
-      end[codes.cols - 1] = 1;
+    };
+    for (int r = first; r < last; ++r) {
+      compare(ends.across, r, 1, map.cols - 1);
+      if (r + 1 < map.rows) compare(ends.down, r, map.cols, map.cols);
     }
   });
   return ends;
 }
 
-void fitRows(cv::Mat& codes, const cv::Mat& ends, int reach) {
-  inBands(codes.rows, [&](int first, int last) {
-    LineFit line(codes.cols, reach);
-    for (int r = first; r < last; ++r) line.row(ends.ptr<std::uint8_t>(r), codes.ptr<float>(r), codes.cols);
+void fitAlong(const std::vector<std::uint8_t>& ends, DepthMap& map, bool columns, int reach) {
+  const Layout layout{.lines = columns ? map.cols : map.rows,
+                      .length = columns ? map.rows : map.cols,
+                      .cols = map.cols,
+                      .columns = columns};
+  inBands(layout.lines, [&](int first, int last) {
+    LineFits fits(layout, reach);
+    for (int line = first; line < last; line += kLines) {
+      fits.fit(ends.data(), map.codes.data(), line, std::min(kLines, last - line));
+    }
   });
 }
 
@@ -86,18 +197,10 @@ void fitRows(cv::Mat& codes, const cv::Mat& ends, int reach) {
 
 void fitLines(DepthMap& map, int reach) {
   if (reach < 1 || map.size() == 0) return;
-  cv::Mat codes(map.rows, map.cols, CV_32F, map.codes.data());
-  const cv::Mat holes(map.rows, map.cols, CV_8U, map.holes.data());
-  cv::Mat turned, turned_holes;
-  cv::transpose(codes, turned);
-  cv::transpose(holes, turned_holes);
-  const cv::Mat across = endsOfRuns(codes, holes), down = endsOfRuns(turned, turned_holes);
-  turned_holes.release();
+  const Ends ends = endsOfRuns(map);
   for (int round = 0; round < 2; ++round) {
-    fitRows(codes, across, reach);
-    cv::transpose(codes, turned);
-    fitRows(turned, down, reach);
-    cv::transpose(turned, codes);
+    fitAlong(ends.across, map, false, reach);
+    fitAlong(ends.down, map, true, reach);
   }
 }
 
