@@ -22,11 +22,13 @@ constexpr int floorDivide(int a, int b) {
   return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
 }
 
-// Calls row(r, first, last) for each row of samples inside a triangle or on its edge.
+// Calls row(r, first, last) for each row of samples inside a triangle or on its edge, of the rows from `begin` to
+// before `end` that `every` divides.
 template <class Row>
-void eachRow(const std::array<Point, 3>& corners, Row&& row) {
+void eachRow(const std::array<Point, 3>& corners, int begin, int end, int every, Row&& row) {
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-  for (int r = top; r <= bottom; ++r) {
+  const int from = (std::max(top, begin) + every - 1) / every * every;
+  for (int r = from; r < std::min(bottom + 1, end); r += every) {
     int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
     for (int k = 0; k < 3; ++k) {
       const Point &a = corners[k], &b = corners[(k + 1) % 3];
@@ -123,19 +125,33 @@ class Growing {
   void measure(const std::vector<int>& triangles) {
     std::vector<Candidate> found(triangles.size());
     inBands(static_cast<int>(triangles.size()), [&](int first, int end) {
-      for (int i = first; i < end; ++i) found[i] = farthestFrom(triangles[i]);
+      for (int i = first; i < end; ++i) found[i] = farFrom(triangles[i]);
     });
     std::ranges::copy_if(found, std::back_inserter(worst_), [&](const Candidate& each) { return each.error > bound_; });
   }
 
-  // The sample that is farthest from a triangle; `bound_` and no sample if all are within it.
-  [[nodiscard]] Candidate farthestFrom(int triangle) const {
+  // A sample that is far from a triangle; `bound_` and no sample if all are within it. Of a high triangle it is the
+  // farthest in some of the rows, and all rows are looked at only where those are within the bound: the large triangles
+  // of the first rounds are soon divided.
+  [[nodiscard]] Candidate farFrom(int triangle) const {
+    constexpr int kRowsEnough = 16;
+    const auto [a, b, c] = delaunay_.triangles()[triangle];
+    const auto& p = delaunay_.points();
+    const auto [top, bottom] = std::minmax({p[a].y, p[b].y, p[c].y});
+    int every = 1;
+    while (bottom - top >= 2 * kRowsEnough * every && every < 16) every *= 2;
+    const Candidate far = farthestFrom(triangle, every);
+    return every == 1 || far.error > bound_ ? far : farthestFrom(triangle, 1);
+  }
+
+  // The sample that is farthest from a triangle, in the rows that `every` divides.
+  [[nodiscard]] Candidate farthestFrom(int triangle, int every) const {
     const auto [a, b, c] = delaunay_.triangles()[triangle];
     const auto& p = delaunay_.points();
     const std::array<Point, 3> corners{p[a], p[b], p[c]};
     const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
     Candidate worst{.error = bound_, .triangle = triangle};
-    eachRow(corners, [&](int row, int first, int last) {
+    eachRow(corners, 0, map_.rows, every, [&](int row, int first, int last) {
       const float* const codes = known_.data() + map_.at(first, row);
       const auto begin = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
       const auto step = static_cast<float>(facet.across);
@@ -171,18 +187,25 @@ DepthMesh meshOf(const DepthMap& map, float bound) {
   return Growing(map, std::max(bound, kLeast)).grow();
 }
 
+// A band of rows at a time, so that where triangles meet the same one is drawn last.
 void renderMesh(const DepthMesh& mesh, DepthMap& map) {
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const std::array<Point, 3> corners{mesh.points[a], mesh.points[b], mesh.points[c]};
-    const Facet facet(corners, {mesh.codes[a], mesh.codes[b], mesh.codes[c]});
-    eachRow(corners, [&](int row, int first, int last) {
-      for (int column = first; column <= last; ++column) {
-        const std::size_t i = map.at(column, row);
-        if (map.holes[i] == 0)
-          map.codes[i] = static_cast<float>(facet.origin + facet.down * row + facet.across * column);
-      }
-    });
-  }
+  inBands(map.rows, [&](int begin, int end) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const std::array<Point, 3> corners{mesh.points[a], mesh.points[b], mesh.points[c]};
+      const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+      if (bottom < begin || top >= end) continue;
+      const Facet facet(corners, {mesh.codes[a], mesh.codes[b], mesh.codes[c]});
+      eachRow(corners, begin, end, 1, [&](int row, int first, int last) {
+        float* const codes = map.codes.data() + map.at(0, row);
+        const std::uint8_t* const holes = map.holes.data() + map.at(0, row);
+        const double origin = facet.origin + facet.down * row;
+        for (int column = first; column <= last; ++column) {
+          const auto code = static_cast<float>(origin + facet.across * column);
+          codes[column] = holes[column] == 0 ? code : codes[column];
+        }
+      });
+    }
+  });
 }
 
 }  // namespace relievo
