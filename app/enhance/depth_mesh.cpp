@@ -131,31 +131,33 @@ class Growing {
   }
 
   // A sample that is far from a triangle; `bound_` and no sample if all are within it. Of a high triangle it is the
-  // farthest in some of the rows, and all rows are looked at only where those are within the bound: the large triangles
-  // of the first rounds are soon divided.
+  // farthest in some of the rows and those beside it, and all rows are looked at only where those are within the bound:
+  // the large triangles of the first rounds are soon divided.
   [[nodiscard]] Candidate farFrom(int triangle) const {
-    constexpr int kRowsEnough = 16;
+    constexpr int kRowsEnough = 48;
     const auto [a, b, c] = delaunay_.triangles()[triangle];
     const auto& p = delaunay_.points();
     const auto [top, bottom] = std::minmax({p[a].y, p[b].y, p[c].y});
     int every = 1;
     while (bottom - top >= 2 * kRowsEnough * every && every < 16) every *= 2;
-    const Candidate far = farthestFrom(triangle, every);
-    return every == 1 || far.error > bound_ ? far : farthestFrom(triangle, 1);
+    const Candidate far = farthestFrom(triangle, 0, map_.rows, every);
+    if (every == 1) return far;
+    if (far.error > bound_) return farthestFrom(triangle, far.point.y - every + 1, far.point.y + every, 1);
+    return farthestFrom(triangle, 0, map_.rows, 1);
   }
 
-  // The sample that is farthest from a triangle, in the rows that `every` divides.
-  [[nodiscard]] Candidate farthestFrom(int triangle, int every) const {
+  // The sample that is farthest from a triangle, in the rows from `begin` to before `end` that `every` divides.
+  [[nodiscard]] Candidate farthestFrom(int triangle, int begin, int end, int every) const {
     const auto [a, b, c] = delaunay_.triangles()[triangle];
     const auto& p = delaunay_.points();
     const std::array<Point, 3> corners{p[a], p[b], p[c]};
     const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
     Candidate worst{.error = bound_, .triangle = triangle};
-    eachRow(corners, 0, map_.rows, every, [&](int row, int first, int last) {
+    eachRow(corners, begin, end, every, [&](int row, int first, int last) {
       const float* const codes = known_.data() + map_.at(first, row);
-      const auto begin = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
+      const auto start = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
       const auto step = static_cast<float>(facet.across);
-      const auto error = [&](int i) { return std::abs(codes[i] - (begin + step * static_cast<float>(i))); };
+      const auto error = [&](int i) { return std::abs(codes[i] - (start + step * static_cast<float>(i))); };
       const int count = last - first + 1;
       int beyond = 0;  // usually 0: without a branch the loop is vectorised
       for (int i = 0; i < count; ++i) beyond |= error(i) > worst.error ? 1 : 0;
