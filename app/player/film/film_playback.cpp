@@ -3,7 +3,6 @@
 #include "app/player/film/film_playback.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "app/depth_window/surface_window.h"
@@ -229,37 +228,6 @@ void FilmPlayback::noteShown() {
   shown_color_ = head_.colors();
   sound_.noteShown(picture().color.pts, clock_);
   noteLiveShown();
-}
-
-DepthAround FilmPlayback::depth() const {
-  DepthAround around;
-  if (!rushes()) around.present = picture().depth;
-  around.material = picture().material;
-  around.expected = !rushes() && info_.has_depth;
-  if (makesReliefs()) {
-    gatherReliefs(around);
-    return around;
-  }
-  around.ahead_count = std::min(head_.ahead().size(), around.ahead.size());
-  for (std::size_t i = 0; i < around.ahead_count; ++i) {
-    around.ahead[i] = head_.ahead()[i].depth;
-    around.material_ahead[i] = head_.ahead()[i].material;
-  }
-  if (isLive()) around.felt = clock_.position(clock_source_.now());
-  around.last = head_.last() && around.ahead_count == head_.ahead().size();
-  return around;
-}
-
-// Behind the playhead's few the feed may have more, whose depth is not made yet where it comes from the views.
-DepthComing FilmPlayback::coming() const {
-  DepthComing coming;
-  for (const FramePair& pair : head_.ahead()) {
-    if (coming.count == DepthComing::kMost) return coming;
-    coming.frames[coming.count++] = pair.depth;
-  }
-  coming.count += feed_.peekDepths(std::span(coming.frames).subspan(coming.count));
-  coming.last = head_.last() && coming.count == head_.ahead().size();
-  return coming;
 }
 
 MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is known of the next pictures: as far as a cut, and by how many pictures they come later.
-#include "app/player/screen/coming_relief.h"
+#include "app/player/film/coming_relief.h"
 
 #include <gtest/gtest.h>
 

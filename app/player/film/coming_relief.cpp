@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keeps a few depth pictures on both sides of the present one, since a cut is judged by what is around it.
-#include "app/player/screen/coming_relief.h"
+#include "app/player/film/coming_relief.h"
 
 #include <algorithm>
 
