@@ -10,6 +10,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/picture.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/huge_page_marks.h"
 #include "tests/unit/drivers/decoded_clip.h"
 
 namespace relievo::test {
@@ -55,6 +56,21 @@ TEST(FfmpegDecoder, HeldPicturesStayIntactWhenTheDecoderHasGone) {
     places.insert(frame.planes[0].data);
   }
   EXPECT_EQ(places.size(), 24u);
+}
+
+// Of an odd size, so that rows end in padding.
+TEST(FfmpegDecoder, BigPicturesLieOnHugePages) {
+  if (!marksHugePages()) GTEST_SKIP() << "this kernel has no huge pages to ask for";
+  TemporaryFolder folder;
+  makeClip(folder / "a.mkv", {ClipTrack{.width = 2051, .height = 1201, .frames = 2, .sample = scattered}});
+  const auto frames = Clip(folder / "a.mkv").decode();
+  ASSERT_EQ(frames.size(), 2u);
+  for (int k = 0; k < 2; ++k) {
+    const Frame& frame = frames[static_cast<std::size_t>(k)];
+    EXPECT_EQ(wrongSamples(frame, k), 0) << "frame " << k;
+    EXPECT_TRUE(isMarkedForHugePages(frame.planes[0].data)) << "frame " << k;
+    EXPECT_TRUE(isMarkedForHugePages(frame.planes[0].data + 1200 * frame.planes[0].stride_bytes)) << "frame " << k;
+  }
 }
 
 // 4:0:0 as an encoder writes it: one plane; libavcodec yields 4:2:0 of full range with flat chroma.
