@@ -7,8 +7,8 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/picture_memory.h"
 #include "drivers/ffmpeg/views/view_pairs.h"
-#include "platform/huge_pages.h"
 
 namespace relievo {
 namespace {
@@ -34,16 +34,6 @@ const AVCodec* decoderOf(AVCodecID id, bool alpha) noexcept {
                                                    : nullptr;
   const AVCodec* const with_alpha = name == nullptr ? nullptr : avcodec_find_decoder_by_name(name);
   return with_alpha != nullptr ? with_alpha : avcodec_find_decoder(id);
-}
-
-// FFmpeg's own memory, which it keeps for the next pictures; called by its threads, before they write a picture.
-int getBuffer(AVCodecContext* context, AVFrame* picture, int flags) noexcept {
-  const int got = avcodec_default_get_buffer2(context, picture, flags);
-  if (got < 0) return got;
-  for (const AVBufferRef* const plane : picture->buf) {
-    if (plane != nullptr) askForHugePages(plane->data, plane->size);
-  }
-  return got;
 }
 
 class FfmpegDecoder final : public VideoDecoder {
@@ -92,7 +82,7 @@ class FfmpegDecoder final : public VideoDecoder {
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;
     context_->flags |= AV_CODEC_FLAG_UNALIGNED;  // crop exactly to the sample
-    context_->get_buffer2 = getBuffer;
+    memory_.serve(*context_);
     static_cast<void>(askForViews(*context_));
     if (avcodec_open2(context_.get(), codec, nullptr) < 0) {
       return fail(ErrorCode::Corrupt, "the video decoder rejects the stream's parameters; convert the film");
@@ -207,6 +197,7 @@ class FfmpegDecoder final : public VideoDecoder {
     context_->skip_frame = unreferenced ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
   }
 
+  PictureMemory memory_;
   CodecContextPtr context_;
   PacketPtr packet_;  // reused by each feed
   FramePtr picture_;  // reused by each receive
