@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "platform/huge_pages.h"
+
 namespace relievo {
 namespace {
 
@@ -57,7 +59,10 @@ void quantise(const std::vector<double>& codes, double highest, std::uint8_t* ro
 Frame renderDepth(const TrueSurface& surface, const DepthFormat& format, int index) {
   const std::size_t sample_bytes = format.bits > 8 ? 2 : 1;
   const std::size_t stride = format.cols * sample_bytes;
-  const auto samples = std::make_shared<std::vector<std::uint8_t>>(stride * format.rows);
+  const auto samples = std::make_shared<std::vector<std::uint8_t>>();
+  samples->reserve(stride * format.rows);
+  askForHugePages(samples->data(), samples->capacity());  // as the player's decoder does
+  samples->resize(stride * format.rows);
 
   Frame frame;
   frame.pts = mediaTime(index / format.frames_per_s);

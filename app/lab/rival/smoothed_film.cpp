@@ -10,6 +10,7 @@
 
 #include "app/lab/film/parallel.h"
 #include "platform/clock.h"
+#include "platform/huge_pages.h"
 
 namespace relievo {
 namespace {
@@ -29,8 +30,11 @@ SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm
     DepthSmoother smoother(frames.front().field, sigma_mm, order);
     for (std::size_t i = part; i < frames.size(); i += parts) {
       if (frames[i].repeats && i > 0) continue;
-      const auto codes = std::make_shared<std::vector<std::uint16_t>>(static_cast<std::size_t>(smoother.cols()) *
-                                                                      static_cast<std::size_t>(smoother.rows()));
+      const auto codes = std::make_shared<std::vector<std::uint16_t>>();
+      const std::size_t count = static_cast<std::size_t>(smoother.cols()) * static_cast<std::size_t>(smoother.rows());
+      codes->reserve(count);
+      askForHugePages(codes->data(), 2 * count);  // the rivals' pictures lie as the film's do
+      codes->resize(count);
       if (smoother.smooth(frames[i].field, *codes)) hole = true;
       done.pictures[i] = grayFrame(codes, smoother.cols(), smoother.rows());
       done.pictures[i].pts = frames[i].time;
