@@ -4,9 +4,17 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 namespace relievo {
+
+// Of a file that cannot be opened.
+[[nodiscard]] inline bool lacksDescriptors(int os_error) noexcept {
+  return os_error == EMFILE || os_error == ENFILE;
+}
+inline constexpr const char* kNoDescriptors =
+    "cannot be opened: as many files are open as the limit on open files allows; raise it (ulimit -n) or close some";
 
 class UniqueFd {
  public:

@@ -4,6 +4,8 @@
 
 #include <cerrno>
 
+#include "platform/unique_fd.h"
+
 extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/log.h>
@@ -42,6 +44,9 @@ Error openError(int code) noexcept {
       return {ErrorCode::Unsupported, EISDIR, "it is a folder; give a file in it"};
     case AVERROR(ETIMEDOUT):
       return kLateAnswer;
+    case AVERROR(EMFILE):
+    case AVERROR(ENFILE):
+      return {ErrorCode::Exhausted, osError(code), kNoDescriptors};
     case AVERROR(ENOMEM):
       return {ErrorCode::Exhausted, ENOMEM, "out of memory while opening the source"};
     case AVERROR_EOF:

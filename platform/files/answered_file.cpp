@@ -41,6 +41,7 @@ Opened openNow(const std::string& path) {
     UniqueFd fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     if (fd.valid()) return {std::move(fd), std::nullopt, S_ISREG(status.st_mode)};
   }
+  if (lacksDescriptors(errno)) return {{}, Error{ErrorCode::Exhausted, errno, kNoDescriptors}};
   const ErrorCode code = errno == EACCES ? ErrorCode::PermissionDenied : ErrorCode::NotFound;
   return {{}, Error{code, errno, "cannot be opened; check the path"}};
 }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -60,6 +61,23 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
     EXPECT_EQ(openErrorOf(folder / name).code, ErrorCode::Corrupt) << name;
     EXPECT_THAT(openErrorOf(folder / name).message, HasSubstr("not a media file")) << name;
   }
+}
+
+// FFmpeg opens a film by itself where it is a pattern or has a protocol; its code tells the same.
+TEST(FfmpegSource, WithoutADescriptorItNamesTheLimit) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.mkv", {ClipTrack{.frames = 2}});
+  ASSERT_TRUE(makeFfmpegSource()->open(folder / "a.mkv").has_value());
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{.rlim_cur = 0, .rlim_max = before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  const Error error = openErrorOf(folder / "a.mkv");
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(error.code, ErrorCode::Exhausted);
+  EXPECT_EQ(error.os_error, EMFILE);
+  EXPECT_THAT(error.message, HasSubstr("ulimit -n"));
+  EXPECT_THAT(ffmpeg::openError(-EMFILE).message, HasSubstr("ulimit -n"));
 }
 
 // Told by their first bytes, even where FFmpeg would find something like sound in what follows.
