@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
+#include <sstream>
 #include <string_view>
 
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
 #include "hal/media/media_names.h"
+#include "hal/media/video_decoder.h"
 #include "platform/files/answered_file.h"
 
 namespace relievo::ffmpeg {
@@ -17,7 +20,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::size_t kHeadBytes = 16;
+constexpr std::size_t kHeadBytes = 128;
 
 // Fewer bytes if the file is shorter or cannot be read.
 std::string headOf(const std::string& path) {
@@ -123,6 +126,18 @@ bool isHeic(const std::string& path) {
   return head.substr(4, 4) == "ftyp" && std::ranges::find(kBrands, head.substr(8, 4)) != kBrands.end();
 }
 
+// FFmpeg refuses a Y4M header of over 268 million samples with a code that says nothing.
+bool isTooLargeY4m(const std::string& path) {
+  const std::string head = headOf(path);
+  if (!head.starts_with("YUV4MPEG2 ")) return false;
+  std::istringstream words(head.substr(0, head.find('\n')));
+  double samples = 1;
+  for (std::string word; words >> word;) {
+    if (word[0] == 'W' || word[0] == 'H') samples *= std::atof(word.c_str() + 1);
+  }
+  return samples > static_cast<double>(VideoDecoder::kMostSamples);
+}
+
 }  // namespace
 
 std::optional<Error> unreadFormat(const std::string& path) {
@@ -157,6 +172,8 @@ Error refusal(const Address& address, int code, const std::string& words) {
             "it is a HEIC photo, which this FFmpeg cannot read; with libheif (RELIEVO_HEIF) those with a depth map or "
             "two views are read; save it as JPEG or PNG"};
   }
+  if (address.way == Way::File && isTooLargeY4m(localPathOf(address.url)))
+    return {ErrorCode::Unsupported, 0, VideoDecoder::kTooLarge};
   if (!address.remote()) return openError(code);
   // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
   if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);

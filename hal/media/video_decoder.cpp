@@ -3,13 +3,6 @@
 #include "hal/media/video_decoder.h"
 
 namespace relievo {
-namespace {
-
-constexpr const char* kTooLarge =
-    "its pictures have over 16.7 million samples (the most is 7680 x 2160 or 4096 x 4096); scale the film down";
-
-}  // namespace
-
 Result<void> VideoDecoder::open(const StreamInfo& stream) {
   if (state_ != State::Closed) return fail(ErrorCode::InvalidState, "the decoder is open already; close it first");
   if (stream.kind != StreamKind::Video) {

@@ -37,6 +37,8 @@ class VideoDecoder {
   // `open` refuses larger pictures, and back ends do not decode them. The limit allows two UHD pictures side by side,
   // and a few pictures of that size fit into a set-top box's memory.
   static constexpr std::int64_t kMostSamples = std::int64_t{1} << 24;
+  static constexpr const char* kTooLarge =
+      "its pictures have over 16.7 million samples (the most is 7680 x 2160 or 4096 x 4096); scale the film down";
 
   // Unsupported if the codec is unknown here or the pictures are too large, Corrupt if its parameters make no
   // sense. Closed only.

@@ -80,6 +80,18 @@ TEST(FfmpegSource, WithoutADescriptorItNamesTheLimit) {
   EXPECT_THAT(ffmpeg::openError(-EMFILE).message, HasSubstr("ulimit -n"));
 }
 
+TEST(FfmpegSource, AY4mHeaderOfTooLargePicturesNamesTheLargest) {
+  TemporaryFolder folder;
+  for (const char* size : {"W20000 H20000", "H20000 W20000"}) {
+    writeFile(folder / "a.y4m", std::string("YUV4MPEG2 ") + size + " F25:1 C420\nFRAME\n" + std::string(5000, '\0'));
+    const Error error = openErrorOf(folder / "a.y4m");
+    EXPECT_EQ(error.code, ErrorCode::Unsupported) << size;
+    EXPECT_THAT(error.message, HasSubstr("4096 x 4096")) << size;
+  }
+  writeFile(folder / "b.y4m", "YUV4MPEG2 W0 H16 F25:1 C420\nFRAME\n");
+  EXPECT_THAT(openErrorOf(folder / "b.y4m").message, testing::Not(HasSubstr("4096 x 4096")));
+}
+
 // Told by their first bytes, even where FFmpeg would find something like sound in what follows.
 TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsThem) {
   const TemporaryFolder folder;
