@@ -75,7 +75,7 @@ void Player::followReader(MonotonicTime now) {
 void Player::followOpening(MonotonicTime now) {
   switch (film_.opening()) {
     case FilmPlayback::Opening::Waits:
-      return;
+      return film_.noteWait(now);
     case FilmPlayback::Opening::Failed:
       return failFilm();
     case FilmPlayback::Opening::IsList: {

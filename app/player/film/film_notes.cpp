@@ -9,11 +9,27 @@
 #include "platform/print.h"
 
 namespace relievo {
+namespace {
+
+constexpr Duration kLongOpening = std::chrono::seconds(2);
+
+}  // namespace
 
 void FilmNotes::begin(const SourceOptions& source) {
   url_ = source.url;
   depth_url_ = source.depth_url;
-  slowness_told_ = false;
+  slowness_told_ = wait_told_ = false;
+  waits_since_.reset();
+}
+
+void FilmNotes::waits(MonotonicTime now) {
+  if (!waits_since_) waits_since_ = now;
+  if (wait_told_ || now - *waits_since_ <= kLongOpening) return;
+  wait_told_ = true;
+  const std::string& depth = depth_url_;
+  const std::string what =
+      depth.empty() ? print("\"%s\"", url_.c_str()) : print("\"%s\" or \"%s\"", url_.c_str(), depth.c_str());
+  log(LogLevel::Warning, "play", "waiting for %s (up to %.0f s)", what.c_str(), toSeconds(FilmFeed::kPatience));
 }
 
 void FilmNotes::opened(const FilmInfo& info) {

@@ -2,6 +2,7 @@
 // What the player tells of a film: how it was read, and what happens to its sources and decoders while it plays.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/media/film_feed.h"
@@ -18,6 +19,8 @@ class FilmNotes {
 
   // The film that is spoken of from now on; nothing has been told of it.
   void begin(const SourceOptions& source);
+  // The film is still being opened: a long wait is told once.
+  void waits(MonotonicTime now);
   void opened(const FilmInfo& info);
   // A source lost and found again; a decoder that begins anew.
   void happened(const FilmFeed::News& news);
@@ -31,7 +34,8 @@ class FilmNotes {
  private:
   Journal& journal_;
   std::string url_, depth_url_;
-  bool slowness_told_ = false;
+  bool slowness_told_ = false, wait_told_ = false;
+  std::optional<MonotonicTime> waits_since_;
 };
 
 }  // namespace relievo

@@ -53,6 +53,8 @@ class FilmPlayback {
 
   enum class Opening : std::uint8_t { Waits, Opened, IsList, Failed };
   [[nodiscard]] Opening opening() const;
+  // Once a round, in Waits.
+  void noteWait(MonotonicTime now) { notes_.waits(now); }
   // The entries of the list; in IsList.
   [[nodiscard]] std::vector<PlaylistEntry> listed() const { return feed_.films(); }
   // Reads the film's description and logs it; call once, in Opened.

@@ -2,6 +2,7 @@
 // A film alone, in simulated time: without a player, a screen or a device.
 #include "app/player/film/film_playback.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -92,6 +93,25 @@ TEST_F(FilmPlaybackTest, NothingOfTheFilmBeforeIsTrueOfTheNext) {
   EXPECT_EQ(film_.rate(), 1);
   EXPECT_TRUE(film_.picture().color.empty());
   EXPECT_EQ(film_.place(clock_.now()), std::nullopt);
+}
+
+TEST_F(FilmPlaybackTest, AnOpeningOfMoreThanTwoSecondsSaysOnceWhatItWaitsFor) {
+  setLogLevel(LogLevel::Warning);
+  const auto saidAfter = [&](int seconds) {
+    testing::internal::CaptureStderr();
+    clock_.sleepUntil(clock_.now() + std::chrono::seconds(seconds));
+    film_.noteWait(clock_.now());
+    return testing::internal::GetCapturedStderr();
+  };
+  film_.open({.url = "film"});
+  EXPECT_EQ(saidAfter(0), "");
+  EXPECT_EQ(saidAfter(2), "");
+  EXPECT_THAT(saidAfter(1), testing::HasSubstr("waiting for \"film\" (up to 30 s)"));
+  EXPECT_EQ(saidAfter(10), "");
+  film_.close(clock_.now());
+  film_.open({.url = "other", .depth_url = "depth"});
+  EXPECT_EQ(saidAfter(1), "") << "of another film";
+  EXPECT_THAT(saidAfter(3), testing::HasSubstr("waiting for \"other\" or \"depth\" (up to 30 s)"));
 }
 
 TEST_F(FilmPlaybackTest, ASourceThatCannotBeOpenedHasFailedByItsName) {
