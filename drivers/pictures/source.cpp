@@ -16,6 +16,8 @@
 #include "platform/files/answered_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/log.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -178,6 +180,16 @@ class PicturesSource final : public MediaSource {
     return entry;
   }
 
+  // Of many, the tenth, hundredth, .. are told.
+  void tellMissed(const std::string& path, const char* why) const {
+    const std::uint64_t missed = missedPictures();
+    std::uint64_t told = 1;
+    while (told < missed) told *= 10;
+    if (told != missed) return;
+    log(LogLevel::Warning, "media", "%s: %s; the picture before it stays for its time%s", path.c_str(), why,
+        missed > 1 ? print(" (%llu pictures so far)", static_cast<unsigned long long>(missed)).c_str() : "");
+  }
+
   Result<std::optional<Packet>> readPacket() override {
     while (!reached_.empty() || next_ < entries_.size()) {
       if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while reading pictures");
@@ -186,6 +198,7 @@ class PicturesSource final : public MediaSource {
       if (!bytes && endsReading(bytes.error())) return std::unexpected(bytes.error());
       if (!bytes || (*bytes)->empty()) {
         countMissed(1);
+        tellMissed(pathOf(entry), bytes ? "is empty" : bytes.error().message);
         continue;
       }
       if (isNyuDepth(pathOf(entry))) mendByteOrder(**bytes);

@@ -275,13 +275,15 @@ TEST_F(Pictures, ASeekBeginsWithThePicturesAtTheTarget) {
   EXPECT_THAT(read(folder_ / "r", 10, MediaTime(1h)).color, ElementsAre("800 r/rgb/8.png"));
 }
 
-TEST_F(Pictures, OneThatHasGoneIsPassedOverAndCounted) {
+TEST_F(Pictures, OneThatHasGoneIsPassedOverNamedAndCounted) {
   file("1.png"), file("2.png"), file("3.png");
   const auto source = makePicturesSource(describe);
   ASSERT_TRUE(source->open(folder_ / "%d.png"));
   std::filesystem::remove(folder_ / "2.png");
   EXPECT_EQ(line(**source->read()), "0 1.png");
+  testing::internal::CaptureStderr();
   EXPECT_EQ(line(**source->read()), "80 3.png");
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("2.png: cannot be opened"));
   EXPECT_EQ(source->missedPictures(), 1u);
   EXPECT_FALSE(*source->read());
 }
