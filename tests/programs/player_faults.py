@@ -94,20 +94,23 @@ class Player:
                 break
             except OSError:
                 time.sleep(0.05)
-        self.heard, self.asked, self.slowest_s = b"", 0, 0
+        self.heard, self.asked, self.slowest_s, self.ran_s = b"", 0, 0, 0
 
-    def starved_s(self):
-        """How long the main thread has waited for a processor."""
+    def main_thread_s(self):
+        """How long the main thread has run, and how long it has waited for a processor."""
         try:
             with open(f"/proc/{self.process.pid}/task/{self.process.pid}/schedstat", encoding="ascii") as file:
-                return int(file.read().split()[1]) / 1e9
+                return [int(word) / 1e9 for word in file.read().split()[:2]]
         except OSError:
-            return 0
+            return [0, 0]
+
+    def starved_s(self):
+        return self.main_thread_s()[1]
 
     def ask(self, words):
         """The answer and the seconds until it came, without those that the player waited for a processor."""
         self.asked += 1
-        starved, began = self.starved_s(), time.monotonic()
+        (ran, starved), began = self.main_thread_s(), time.monotonic()
         try:
             self.socket.sendall(json.dumps({"do": words, "id": self.asked}).encode() + b"\n")
             self.socket.settimeout(MISSING_S)
@@ -125,7 +128,9 @@ class Player:
                     return None, MISSING_S
         except OSError:
             return None, time.monotonic() - began
-        took = time.monotonic() - began - (self.starved_s() - starved)
+        took, now = time.monotonic() - began, self.main_thread_s()
+        took -= now[1] - starved
+        self.ran_s = now[0] - ran
         self.slowest_s = max(self.slowest_s, took)
         return answer, took
 
@@ -223,7 +228,8 @@ class Faults:
                 last = [*last[-5:], words[:200]]
                 answer, took = player.ask(words)
                 if answer is None or took > ANSWER_S:
-                    findings.append(f"{'no answer' if answer is None else f'an answer after {1e3 * took:.0f} ms'}: {last}")
+                    late = f"an answer after {1e3 * took:.0f} ms, of which its thread ran {1e3 * player.ran_s:.0f} ms"
+                    findings.append(f"{'no answer' if answer is None else late}: {last}")
                 if answer is None:
                     break
                 time.sleep(chance.choice((0, 0, 0.01, 0.1, 0.5)))
