@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::size_t kHeadBytes = 128;
+constexpr std::size_t kHeadBytes = 256;
 
 // Fewer bytes if the file is shorter or cannot be read.
 std::string headOf(const std::string& path) {
@@ -138,6 +138,15 @@ bool isTooLargeY4m(const std::string& path) {
   return samples > static_cast<double>(VideoDecoder::kMostSamples);
 }
 
+// ASCII or UTF-8, whose bytes are never above F4; no container begins with so many bytes without a control character.
+bool isText(std::string_view head) {
+  const auto is_written = [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte == '\t' || byte == '\n' || byte == '\r' || (byte >= 0x20 && byte != 0x7F && byte <= 0xF4);
+  };
+  return !head.empty() && static_cast<unsigned char>(head.front()) < 0xF0 && std::ranges::all_of(head, is_written);
+}
+
 }  // namespace
 
 std::optional<Error> unreadFormat(const std::string& path) {
@@ -174,6 +183,11 @@ Error refusal(const Address& address, int code, const std::string& words) {
   }
   if (address.way == Way::File && isTooLargeY4m(localPathOf(address.url)))
     return {ErrorCode::Unsupported, 0, VideoDecoder::kTooLarge};
+  if (code == AVERROR_INVALIDDATA && address.way == Way::File && isText(headOf(localPathOf(address.url)))) {
+    return {ErrorCode::Corrupt, 0,
+            "it is text, not a film, whatever its name says; look into it: a download may have saved a web page; depth "
+            "of another program is read from .npy, 16-bit PNG, PFM, EXR or TIFF: write it as one of them"};
+  }
   if (!address.remote()) return openError(code);
   // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.
   if (code != AVERROR(EINVAL) || address.way != Way::Http) return networkError(code, words);

@@ -54,10 +54,16 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   std::string letters;
   for (int i = 0; i < 3000; ++i) letters += "nor is this, though FFmpeg would show its letters\n";
   writeFile(folder / "text.txt", letters);
+  writeFile(folder / "umlauts.mp4", "Gr\xc3\xbc\xc3\x9f");
   writeFile(folder / "empty.mkv", "");
+  writeFile(folder / "noise.mkv", std::string(300, '\xff'));
   makeClip(folder / "no-index.mov", {kH264});
   cutFile(folder / "no-index.mov", 0.5);  // the index stands at the end
-  for (const char* name : {"text.mkv", "text.txt", "empty.mkv", "no-index.mov"}) {
+  for (const char* name : {"text.mkv", "text.txt", "umlauts.mp4"}) {
+    EXPECT_EQ(openErrorOf(folder / name).code, ErrorCode::Corrupt) << name;
+    EXPECT_THAT(openErrorOf(folder / name).message, HasSubstr("it is text, not a film")) << name;
+  }
+  for (const char* name : {"empty.mkv", "noise.mkv", "no-index.mov"}) {
     EXPECT_EQ(openErrorOf(folder / name).code, ErrorCode::Corrupt) << name;
     EXPECT_THAT(openErrorOf(folder / name).message, HasSubstr("not a media file")) << name;
   }
