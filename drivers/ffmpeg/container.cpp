@@ -29,6 +29,8 @@ constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
 
 // Azure Kinect's code for 16-bit gray in big endian, which FFmpeg takes for RGB of 15 bits.
 constexpr std::uint32_t kGray16Big = MKTAG('b', '1', '6', 'g');
+// Of raw AVI, as cameras write it; likewise.
+constexpr std::uint32_t kGray16Little = MKTAG('Y', '1', '6', ' ');
 
 Duration framePeriodOf(const AVStream& stream) noexcept {
   for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
@@ -95,10 +97,10 @@ std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, co
   return {area, rate == nullptr ? 0 : std::strtoll(rate->value, nullptr, 10)};
 }
 
-void becomeGray16Big(AVCodecParameters& parameters) noexcept {
+void becomeGray16(AVCodecParameters& parameters, AVPixelFormat format) noexcept {
   parameters.codec_id = AV_CODEC_ID_RAWVIDEO;
   parameters.codec_tag = 0;  // it would override the format
-  parameters.format = AV_PIX_FMT_GRAY16BE;
+  parameters.format = format;
   parameters.bits_per_coded_sample = 16;
 }
 
@@ -253,7 +255,8 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
     return std::unexpected(openError(AVERROR(ENOMEM)));
   }
-  if (parameters.codec_tag == kGray16Big) becomeGray16Big(*native->parameters);
+  if (parameters.codec_tag == kGray16Big) becomeGray16(*native->parameters, AV_PIX_FMT_GRAY16BE);
+  if (parameters.codec_tag == kGray16Little) becomeGray16(*native->parameters, AV_PIX_FMT_GRAY16LE);
   native->time_base = stream.time_base;
   native->sample_aspect = stream.sample_aspect_ratio;
   info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "app/media/reading/known_kind.h"
 #include "tests/support/film/clip_maker.h"
@@ -70,6 +71,25 @@ TEST(OddCodes, SintelsDisparitiesAreReadFromTheBytesOfRgb) {
              return code >> (8 * (2 - k)) & 0xff;
            })});
   expectShape(openFilm({.url = folder / "disparities/alley/frame_0001.png"}), 0.001);
+}
+
+// Raw AVI of cameras: "Y16 ", the lower byte first. As YUY2 the same bytes are written, and its name is changed.
+TEST(OddCodes, SixteenBitsOfRawAviAreGray) {
+  TemporaryFolder folder;
+  const std::string path = folder / "depth.avi";
+  makeClip(path, {track("rawvideo", "yuyv422", [](int k, int c, int r, int) {
+             const std::uint32_t mm = rounded(distanceMm(k == 0 ? c : 2 * c + k - 1, r));
+             return k == 0 ? mm & 0xff : mm >> 8;
+           })});
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::string head(4096, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  file.clear();
+  for (std::size_t at = head.find("YUY2"); at != std::string::npos; at = head.find("YUY2", at + 1)) {
+    file.seekp(static_cast<std::streamoff>(at)).write("Y16 ", 4);
+  }
+  file.close();
+  expectScene(openFilm({.url = path}), 1, {.mm = 0.51});
 }
 
 // TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; its sky lies at 10 km.
