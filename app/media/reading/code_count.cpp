@@ -96,6 +96,11 @@ int CodeCount::kinds() const {
   return static_cast<int>(std::count_if(of_code_.begin(), of_code_.end(), [](std::uint64_t n) { return n > 0; }));
 }
 
+bool CodeCount::hasGapAtZero(std::uint32_t gap) const {
+  constexpr double kHoles = 0.002;
+  return share(0, 0) > kHoles && share(1, gap) == 0;
+}
+
 CodeCount CodeCount::without(const CodeSet& set) const {
   CodeCount rest = *this;
   for (std::uint32_t code = 0; code < of_code_.size(); ++code) {

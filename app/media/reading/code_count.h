@@ -40,6 +40,8 @@ class CodeCount {
   [[nodiscard]] double remainders(std::uint32_t divisor, std::uint32_t most) const;
   // How many different codes occur.
   [[nodiscard]] int kinds() const;
+  // Whether what a sensor leaves at 0, its holes, occurs, and no code of 1 .. `gap` does.
+  [[nodiscard]] bool hasGapAtZero(std::uint32_t gap) const;
   // The same samples, also of the later pictures, without those of the codes `set`.
   [[nodiscard]] CodeCount without(const CodeSet& set) const;
 

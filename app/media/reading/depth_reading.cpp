@@ -19,7 +19,7 @@ constexpr std::uint32_t kStretched = 0xc000;
 // A rendering that reaches only the upper half is told by what a sensor leaves between its hole code (0) and its
 // nearest reading: a gap.
 constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
-constexpr double kHolesOfSensor = 0.002;
+constexpr double kNotRaw = 0.002;
 
 // Whoever knows the unit of a recording finds the option.
 constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,invalid=0";
@@ -88,19 +88,15 @@ DepthReading readInverse(const CodeCount& count, const KnownKind& kind, const Co
 
 bool isRawKinect(const CodeCount& count) {
   const double outside = count.share(1, kRawLowest - 1) + count.share(kRawHighest + 1, kRawHole - 1);
-  return count.share(kRawHole + 1, kTop) == 0 && count.of(kRawHole) > 0 && outside < kHolesOfSensor &&
+  return count.share(kRawHole + 1, kTop) == 0 && count.of(kRawHole) > 0 && outside < kNotRaw &&
          count.share(kRawLowest, kRawHighest) > 0.05;
-}
-
-bool hasGapAtZero(const CodeCount& count, std::uint32_t gap) {
-  return count.share(0, 0) > kHolesOfSensor && count.share(1, gap) == 0;
 }
 
 bool isDistances(const CodeCount& count) {
   if (count.share(1, kTop - 1) == 0) return false;
   const std::uint32_t highest = count.quantile(1 - kOutliers, 1, kTop - 1);
   if (highest >= kStretched) return false;
-  return highest < kMaybeStretched || hasGapAtZero(count, kLeastGap);
+  return highest < kMaybeStretched || count.hasGapAtZero(kLeastGap);
 }
 
 // A sensor's picture holds many different codes.
@@ -171,39 +167,6 @@ std::string offerMillimetres(const Frame& depth, const CodeCount& count, const C
   return kind != nullptr && kind->name == std::string_view("mm") ? "if a code is 1 mm: --as mm" : "";
 }
 
-DepthReading readRange(const CodeCount& count) {
-  constexpr double kBeyond = 0.005;  // more than coding errors make of black and white
-  const std::uint32_t scale = 1u << (count.bits() - 8);
-  const double beyond = count.share(0, 12 * scale) + count.share(240 * scale, 256 * scale - 1);
-  if (beyond < kBeyond) return {};
-  return {{{"range", "full"}},
-          nullptr,
-          print("%.1f %% of the codes lie outside of 16 to 235: full range", 100 * beyond),
-          ""};
-}
-
-// Gray that is not coded with loss and leaves codes out above 0: black is no shade but a hole.
-void readBlack(const CodeCount& count, const CalibrationLayers& said, DepthReading& reading) {
-  constexpr int kShades = 32;
-  const std::uint32_t gap = (1u << count.bits()) / 128;
-  if (says(said, {"invalid"}) || count.kinds() < kShades || !hasGapAtZero(count, gap)) return;
-  reading.settings["invalid"] = "0";
-  reading.why = print("%.1f %% black, apart from the other shades: holes", 100 * count.share(0, 0));
-  reading.offer = "if black is far away: --calibration invalid=none";
-}
-
-DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
-  DepthReading reading;
-  if (depth.model == ColorModel::Yuv && depth.range == ColorRange::Unspecified && !says(said, {"range", "codes"})) {
-    reading = readRange(count);
-  }
-  if (depth.model != ColorModel::Yuv) readBlack(count, said, reading);
-  if (!says(said, {"polarity", "unit", "law"})) {
-    reading.offer = both(reading.offer, "near is taken to be bright; if it is dark: --calibration polarity=near-low");
-  }
-  return reading;
-}
-
 // Near, far and the codes in use of codes whose meaning is known.
 DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, const KnownKind* kind) {
   const std::string* const unit = said.find("unit");
@@ -268,7 +231,10 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
       reading.offer = both(reading.offer, offerMillimetres(depth, count, said));
       if (!reading.settings.empty() || depth.model != ColorModel::Yuv) return reading;
     }
-    return depth.model == ColorModel::Yuv ? readShades(depth, count, said) : DepthReading{};
+    // Only the near end was said, not by the film's maker, who would have told the holes too.
+    const bool shades =
+        said.command_line.contains("polarity") && said.tags.empty() && !says(said, {"unit", "law", "codes"});
+    return depth.model == ColorModel::Yuv || shades ? readShades(depth, count, said) : DepthReading{};
   }
   if (kind == nullptr || !definesCodes({.pictures = settingsOf(*kind)})) kind = sensorKind(depth, count);
   if (kind == nullptr) return readShades(depth, count, said);

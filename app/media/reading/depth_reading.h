@@ -30,6 +30,10 @@ struct DepthReading {
 [[nodiscard]] DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
                                      const KnownKind* kind = nullptr);
 
+// For codes that are brightness: the range of YUV that states none, black that is a hole, and the words for what cannot
+// be known, the near end and the holes of a film.
+[[nodiscard]] DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said);
+
 // The kind that `readCodes` will find, before the samples are put in its order. The unit of distances is told from all
 // pictures of `count`. Null if nothing is certain.
 [[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth coded as brightness whose holes are black: what stays known when the near end alone was said.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/media/reading/depth_meaning.h"
+#include "app/media/reading/depth_reading.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+using test::makeGrayFrame;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Key;
+using testing::Not;
+
+// Shades from `low` on, `black` in the first of 16 columns.
+Frame shades(int bits, std::uint32_t black, std::uint32_t low) {
+  return makeGrayFrame(256, 8, bits, {}, [=](int c, int) {
+    return c < 16 ? black : low + (static_cast<std::uint32_t>(c - 16) * 150 << (bits - 8)) / 240;
+  });
+}
+Frame film(int bits, std::uint32_t black, std::uint32_t low, ColorRange range = ColorRange::Limited) {
+  Frame frame = shades(bits, black, low);
+  frame.model = ColorModel::Yuv;
+  frame.range = range;
+  return frame;
+}
+DepthReading readingOf(const Frame& frame, const CalibrationLayers& said = {}) {
+  return readCodes(frame, CodeCount(frame), said);
+}
+
+TEST(ShadeReading, BlackHolesOfGrayStayWhenTheNearEndIsSaid) {
+  for (const int bits : {8, 16}) {
+    const Frame frame = shades(bits, 0, 60u << (bits - 8));
+    ASSERT_EQ(readingOf(frame).settings.at("invalid"), "0");
+    EXPECT_EQ(readingOf(frame, {.command_line = {{"polarity", "near-low"}}}).settings.at("invalid"), "0");
+  }
+}
+
+TEST(ShadeReading, WhoSaysMoreHasSaidTheHolesToo) {
+  const Frame frame = shades(8, 0, 60);
+  const CalibrationSettings near_low{{"polarity", "near-low"}};
+  EXPECT_THAT(readingOf(frame, {.tags = near_low}).settings, IsEmpty());
+  for (const char* key : {"law", "codes", "unit", "invalid"}) {
+    CalibrationLayers said{.command_line = near_low};
+    said.command_line[key] = "none";
+    EXPECT_THAT(readingOf(frame, said).settings, Not(Contains(Key("invalid")))) << key;
+  }
+}
+
+TEST(ShadeReading, AFilmsBlackIsOfferedAsAHole) {
+  const char* const offer = "polarity=near-low,invalid=0-";
+  EXPECT_THAT(readingOf(film(8, 17, 60)).offer, HasSubstr("polarity=near-low,invalid=0-19"));
+  EXPECT_THAT(readingOf(film(10, 66, 240)).offer, HasSubstr("polarity=near-low,invalid=0-76"));
+  EXPECT_THAT(readingOf(film(8, 1, 60, ColorRange::Full)).offer, HasSubstr("polarity=near-low,invalid=0-3"));
+  EXPECT_THAT(readingOf(film(8, 0, 60, ColorRange::Unspecified)).offer, HasSubstr("polarity=near-low,invalid=0-3"));
+  EXPECT_THAT(readingOf(film(8, 17, 18)).offer, Not(HasSubstr(offer))) << "black is one of the shades";
+  EXPECT_THAT(readingOf(film(8, 60, 60)).offer, Not(HasSubstr(offer))) << "there is no black";
+  EXPECT_THAT(readingOf(film(8, 17, 60), {.command_line = {{"invalid", "none"}}}).offer, Not(HasSubstr(offer)));
+}
+
+}  // namespace
+}  // namespace relievo
