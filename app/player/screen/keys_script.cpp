@@ -18,6 +18,7 @@ constexpr int kLargest = 28, kSmallest = 5;          // letters
 constexpr double kLegiblePixels = 11, kHugest = 40;  // likewise, in a view of few pixels
 constexpr double kLine = 1.25;                       // of the letters' size
 constexpr double kBetween = 36;                      // two columns
+constexpr double kKeyLetters = 7.6;                  // the size of a letter to the width of the keys
 constexpr int kMostColumns = 3;
 constexpr std::size_t kMostLines = 12;  // of a row
 
@@ -37,7 +38,8 @@ struct Layout {
 Layout layoutOf(const ScreenRows& rows, double width, double size, int columns) {
   Layout layout{.size = size, .columns = columns};
   layout.width = (width - 2 * kMargin - kBetween * (columns - 1)) / columns;
-  layout.keys = 0.32 * layout.width;
+  // As wide as "Backspace" where that leaves half for the meaning.
+  layout.keys = std::max(0.32 * layout.width, std::min(0.46 * layout.width, kKeyLetters * size));
   for (const auto& [keys, meaning] : rows) {
     layout.rows.push_back({folded(keys, cellsIn(layout.keys - size, size), kMostLines),
                            folded(meaning, cellsIn(layout.width - layout.keys, size), kMostLines)});
