@@ -58,6 +58,27 @@ HueSpan takeSpan(CalibrationSettings& settings) {
   return span;
 }
 
+// Of codes and ranges of them, as CodeSet::text() writes them, those that `bits` can hold.
+std::string heldCodes(std::string_view text, int bits) {
+  const std::uint32_t top = (1u << bits) - 1;
+  std::string held;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('+'), text.size());
+    if (const auto range = CodeSet::parseRange(text.substr(0, end)); range && range->low <= top) {
+      held += (held.empty() ? "" : "+") + CodeSet(CodeSet::Range{range->low, std::min(range->high, top)}).text();
+    }
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return held.empty() ? "none" : held;
+}
+
+// The kinds' holes are those of 16 bits; pictures of fewer hold but some of those codes.
+void fitHoles(CalibrationSettings& settings, int bits) {
+  if (const auto holes = settings.find("invalid"); holes != settings.end()) {
+    holes->second = heldCodes(holes->second, bits);
+  }
+}
+
 // Adds the kind's own settings, and those that were read beside the recording, each in the layer of who said them.
 HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayers& layers) {
   if (kind == nullptr) return {};
@@ -181,6 +202,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
                                  std::span<const Frame> later) {
   CalibrationLayers layers = saidLayers(clues);
   const HueSpan span = addKind(clues, kind, layers);
+  fitHoles(layers.stated_kind, look.components[0].bits);
   DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
