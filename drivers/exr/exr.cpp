@@ -96,12 +96,12 @@ Names colorChannels(const Imf::ChannelList& all) {
   return gray.empty() ? Names{} : Names{gray};
 }
 
-// The channel of a layer whose own name says depth: "FinalImageMovieRenderQueue_WorldDepth.R".
+// The channel of a layer whose own name says depth: "FinalImageMovieRenderQueue_WorldDepth.R", "VRayZDepth".
 std::string channelOfDepth(const Imf::ChannelList& channels) {
   for (const char* const word : {kCentimetres, "depth"}) {
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
       const std::string name = channel.name(), last = lastPart(name);
-      const bool first = last == "r" || last == "red" || last == "v";
+      const bool first = last == "r" || last == "red" || last == "v" || last.ends_with("depth");
       if (first && isReadable(channel.channel()) && says(word, name)) return name;
     }
   }
@@ -109,7 +109,7 @@ std::string channelOfDepth(const Imf::ChannelList& channels) {
 }
 
 Names namedDepth(const Imf::ChannelList& channels) {
-  std::string depth = channelNamed(channels, {"z", "depth", "distance", "zdepth", "disparity", "disp"});
+  std::string depth = channelNamed(channels, {"z", "depth", "distance", "zdepth", "pz", "disparity", "disp"});
   if (depth.empty()) depth = channelOfDepth(channels);
   return depth.empty() ? Names{} : Names{depth};
 }

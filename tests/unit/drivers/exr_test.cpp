@@ -142,12 +142,14 @@ TEST(Exr, DepthIsFoundInEveryChannelAndType) {
            {{"Z", Type::Uint, depthWith(0, 1000)}},
            {{"depth", Type::Float, depthWith(kInfinity)}},
            {{"ViewLayer.Depth.Z", Type::Float, depth}},
+           {{"N.X", Type::Float, flat}, {"Pz", Type::Float, depth}},
+           {{"N.X", Type::Float, flat}, {"VRayZDepth", Type::Float, depth}},
            {{"R", Type::Float, depth}},
            {{"Y", Type::Half, depthWith(kInfinity)}},
            {{"B", Type::Float, depth}, {"G", Type::Float, depth}, {"R", Type::Float, depth}},
            {{"V", Type::Float, depthWith(1e9F)}},
        }) {
-    SCOPED_TRACE(channels[0].name);
+    SCOPED_TRACE(channels.back().name);
     write(folder / "z.exr", exr(channels));
     expectDepth(test::openFilm({.url = folder / "z.exr"}), channels[0].type == Type::Half ? 0.002 : 0.001);
   }
