@@ -19,8 +19,8 @@
 #include <utility>
 
 #include "platform/allocation_counter.h"
-#include "platform/fixed_memory.h"
 #include "platform/log.h"
+#include "platform/memory/fixed_memory.h"
 
 namespace relievo {
 namespace {

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "drivers/ffmpeg/library.h"
-#include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/pictures/picture.h"
 #include "platform/log.h"
 
 extern "C" {

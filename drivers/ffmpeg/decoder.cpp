@@ -6,8 +6,8 @@
 #include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
-#include "drivers/ffmpeg/picture.h"
-#include "drivers/ffmpeg/picture_memory.h"
+#include "drivers/ffmpeg/pictures/picture.h"
+#include "drivers/ffmpeg/pictures/picture_memory.h"
 #include "drivers/ffmpeg/views/view_pairs.h"
 
 namespace relievo {

@@ -17,7 +17,7 @@
 #include <string>
 #include <thread>
 
-#include "platform/fixed_memory.h"
+#include "platform/memory/fixed_memory.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <numbers>
 
-#include "platform/huge_pages.h"
+#include "platform/memory/huge_pages.h"
 
 namespace relievo {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/lab/film/parallel.h"
 #include "platform/clock.h"
-#include "platform/huge_pages.h"
+#include "platform/memory/huge_pages.h"
 
 namespace relievo {
 namespace {

@@ -18,7 +18,7 @@
 #include "platform/clock.h"
 #include "platform/cyclic_thread.h"
 #include "platform/error.h"
-#include "platform/fixed_memory.h"
+#include "platform/memory/fixed_memory.h"
 
 namespace relievo {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "drivers/ffmpeg/ffmpeg.h"
-#include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/pictures/picture.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/huge_page_marks.h"
 #include "tests/unit/drivers/decoded_clip.h"

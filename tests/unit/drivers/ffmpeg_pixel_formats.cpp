@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "drivers/ffmpeg/ffmpeg.h"
-#include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/pictures/picture.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/unit/drivers/decoded_clip.h"
 

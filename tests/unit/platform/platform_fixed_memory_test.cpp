@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Touched and locked memory as the kernel reports it, and the arena in it.
-#include "platform/fixed_memory.h"
+#include "platform/memory/fixed_memory.h"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>

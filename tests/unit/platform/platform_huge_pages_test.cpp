@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a block is marked with, as the kernel reports it.
-#include "platform/huge_pages.h"
+#include "platform/memory/huge_pages.h"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>

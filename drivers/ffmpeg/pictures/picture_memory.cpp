@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lays out a picture as avcodec_default_get_buffer2 does, but with all planes in one block.
-#include "drivers/ffmpeg/picture_memory.h"
+#include "drivers/ffmpeg/pictures/picture_memory.h"
 
 extern "C" {
 #include <libavutil/imgutils.h>
@@ -14,7 +14,7 @@ extern "C" {
 #include <cstring>
 #include <optional>
 
-#include "platform/huge_pages.h"
+#include "platform/memory/huge_pages.h"
 
 namespace relievo::ffmpeg {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a decoder's big pictures lie: on huge pages (platform/huge_pages.h), in one block each, which the next picture
-// reuses.
+// Where a decoder's big pictures lie: on huge pages (platform/memory/huge_pages.h), in one block each, which the next
+// picture reuses.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes FFmpeg's pixel formats in the types of hal/media/frame.h.
-#include "drivers/ffmpeg/picture.h"
+#include "drivers/ffmpeg/pictures/picture.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Advises the small pages that a block touches, so that blocks mapped side by side share the huge page between them.
-#include "platform/huge_pages.h"
+#include "platform/memory/huge_pages.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

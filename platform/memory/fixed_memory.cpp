@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Locks and touches ranges of memory, including code; and the arena that holds real-time objects.
-#include "platform/fixed_memory.h"
+#include "platform/memory/fixed_memory.h"
 
 #include <link.h>
 #include <sys/mman.h>
