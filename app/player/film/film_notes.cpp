@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kLongOpening = std::chrono::seconds(2);
+constexpr Duration kLongOpening = std::chrono::seconds(5);
 
 }  // namespace
 
