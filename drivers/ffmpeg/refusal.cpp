@@ -133,7 +133,7 @@ bool isTooLargeY4m(const std::string& path) {
   std::istringstream words(head.substr(0, head.find('\n')));
   double samples = 1;
   for (std::string word; words >> word;) {
-    if (word[0] == 'W' || word[0] == 'H') samples *= std::atof(word.c_str() + 1);
+    if (word[0] == 'W' || word[0] == 'H') samples *= std::strtod(word.c_str() + 1, nullptr);
   }
   return samples > static_cast<double>(VideoDecoder::kMostSamples);
 }
