@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <initializer_list>
 
 #include "platform/print.h"
 
@@ -35,10 +34,6 @@ constexpr std::uint32_t kTenths = 10, kMostStep = 8;
 
 // Near and far are taken from all samples except outliers, with a margin because later pictures may show more.
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
-
-bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return said.find(key) != nullptr; });
-}
 
 std::string number(double value) {
   return print("%.6g", value);

@@ -2,6 +2,7 @@
 // Tells from a depth track's first telling picture what its codes are, as far as nobody has said it.
 #pragma once
 
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -29,6 +30,9 @@ struct DepthReading {
 // the picture's samples are in order already.
 [[nodiscard]] DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
                                      const KnownKind* kind = nullptr);
+
+// Whether one of the keys is said, by whomever.
+[[nodiscard]] bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys);
 
 // For codes that are brightness: the range of YUV that states none, black that is a hole, and the words for what cannot
 // be known, the near end and the holes of a film.

@@ -9,10 +9,6 @@
 namespace relievo {
 namespace {
 
-bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
-  return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return said.find(key) != nullptr; });
-}
-
 DepthReading readRange(const CodeCount& count) {
   constexpr double kBeyond = 0.005;  // more than coding errors make of black and white
   const std::uint32_t scale = 1u << (count.bits() - 8);
@@ -45,6 +41,10 @@ std::string blackHoles(const CodeCount& count, bool full) {
 }
 
 }  // namespace
+
+bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return said.find(key) != nullptr; });
+}
 
 DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
   const bool film = depth.model == ColorModel::Yuv, no_holes_said = !says(said, {"invalid"});
