@@ -15,73 +15,18 @@
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/contenders.h"
-#include "app/stereo/quick/quick_depth.h"
-#include "app/stereo/stereo_depth.h"
+#include "app/lab/measure/stereo_matchers.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
 
-constexpr const char* kAuthors = "author";
 constexpr double kPlayersBudgetMs = 0.6 * 1000 / 24;  // what the player allows a relief of a film of 24 pictures/s
 
 double processorMs() {
   timespec now{};
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-// The depth that a matcher makes of one picture; it may keep what it knows of those before.
-using Matcher = std::function<Frame(const Frame& left, const Frame& right)>;
-
-DisparityRange rangeOf(const ViewFilmFormat& format) {
-  constexpr double kSpare = 2;  // pixels
-  return {static_cast<int>(std::floor(format.cols * format.disparityOf(0) - kSpare)),
-          static_cast<int>(std::ceil(format.cols * format.disparityOf(TrueSurface::kVolume.depth_mm) + kSpare))};
-}
-
-Frame depthOf(const ViewFilmFormat& format, const DisparityMap& map, MediaTime time) {
-  return depthOfDisparity(format, map.cols, map.rows, time,
-                          [&](std::size_t i) { return static_cast<double>(map.pixels[i]) / map.cols; });
-}
-
-Frame quickDepthOf(const ViewFilmFormat& format, QuickDepth& quick, const Frame& left, const Frame& right) {
-  const Frame codes = quick.depthOf(left, right);
-  const QuickDepth::Range range = quick.range().value_or(QuickDepth::Range{});
-  const auto* const code = reinterpret_cast<const std::uint16_t*>(codes.planes[0].data);  // as grayFrame lays them
-  return depthOfDisparity(format, codes.width, codes.height, codes.pts, [&](std::size_t i) {
-    return static_cast<double>(range.low) + code[i] / 65535.0 * static_cast<double>(range.high - range.low);
-  });
-}
-
-struct Contestant {
-  std::string name;
-  int quick_cols = 0;  // 0: none of the player's
-
-  [[nodiscard]] Matcher make(const ViewFilmFormat& format) const {
-    if (quick_cols > 0) {
-      const auto quick = std::make_shared<QuickDepth>();
-      quick->setMatchedCols(quick_cols);
-      return
-          [format, quick](const Frame& left, const Frame& right) { return quickDepthOf(format, *quick, left, right); };
-    }
-    const bool author = name == kAuthors;
-    const auto plain = name == "BM" ? PlainMatcher::Blocks : PlainMatcher::SemiGlobal;
-    return [format, author, plain](const Frame& left, const Frame& right) {
-      const ViewPicture a = readView(left), b = readView(right);
-      const DisparityRange range = rangeOf(format);
-      return depthOf(format, author ? disparityOf(a, b, range) : plainDisparityOf(a, b, range, plain), left.pts);
-    };
-  }
-};
-
-// A view is not matched at more columns than it has.
-std::vector<Contestant> contestantsOn(const ViewFilmFormat& film) {
-  std::vector<Contestant> all{{kAuthors}, {"SGBM"}, {"BM"}};
-  for (const int cols : {160, 320, 640}) {
-    if (cols <= film.cols) all.push_back({print("quick %d", cols), cols});
-  }
-  return all;
 }
 
 // The film changed in one thing; the same film stands on each axis.
