@@ -42,11 +42,13 @@ struct PairReader::Impl {
   void readWordsOf(const std::string& path);
   [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
   void countTracks(const TrackPlan& plan);
-  // In pair_reading.cpp: what the depth means.
+  // In pair_reading.cpp: where the depth is.
   void lookAround();
   Result<TrackPlan> planFilm();
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
+  Result<const Frame*> firstDepth();
+  Result<const Frame*> firstAsStated(const Frame& first);
   // In pair_views.cpp: what one picture holds beside its colour.
   [[nodiscard]] bool takeLayers(const StreamInfo& color);
   [[nodiscard]] bool takeSaidViews(const StreamInfo& color, const Frame& look);
@@ -55,10 +57,9 @@ struct PairReader::Impl {
   void showViews(Packing packing, const char* by);
   void checkViews(const StreamInfo& color);
   void takeDepthFromViews();
+  // In pair_describing.cpp: what the depth means.
   [[nodiscard]] Result<Halves> halvesOf(const Frame& stored) const;
   void lookForCode(const Frame& first);
-  Result<const Frame*> firstDepth();
-  Result<const Frame*> firstAsStated(const Frame& first);
   Result<void> describeAlone(const StreamInfo& track);
   Result<void> describeHalves(const StreamInfo& color);
   Result<void> describeTrack(const Frame& first);
