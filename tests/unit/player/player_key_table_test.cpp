@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys, by the numbers that the kernel's input layer and its CEC map use for them; tables from files; long presses.
+// Keys, by the numbers that the kernel's input layer and its CEC map use for them; tables from files.
 #include "app/player/control/key_table.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,6 @@
 namespace relievo {
 namespace {
 
-using Action = KeyEvent::Action;
 using State = PlayerState;
 
 std::optional<PlayerCommand> pressed(const KeyTable& table, State state, int code) {
@@ -270,93 +269,6 @@ TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithCtrl)), "seek +5");
   EXPECT_FALSE(pressed(*table, State::Playing, KEY_Q | kWithCtrl)) << "it is told to mean nothing";
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_Q)), "quit");
-}
-
-class KeyReaderTest : public testing::Test {
- protected:
-  std::string words(const std::optional<PlayerCommand>& command) { return command ? wordsOf(*command) : "-"; }
-  std::string take(int code, Action action, int ms, State state = State::Playing) {
-    return words(reader_.take({static_cast<std::uint16_t>(code), action, at(ms)}, state));
-  }
-  std::string held(int ms) { return words(reader_.held(at(ms))); }
-  static MonotonicTime at(int ms) { return MonotonicTime(std::chrono::milliseconds(ms)); }
-
-  KeyReader reader_{KeyTable::usual()};
-};
-
-TEST_F(KeyReaderTest, AHeldKeySeeksOnAndDoesNothingElse) {
-  EXPECT_EQ(take(KEY_RIGHT, Action::Press, 0), "seek +5");
-  EXPECT_EQ(take(KEY_RIGHT, Action::Repeat, 500), "seek +5");
-  EXPECT_EQ(take(KEY_RIGHT, Action::Release, 700), "-");
-  EXPECT_EQ(take(KEY_PLAYPAUSE, Action::Press, 800), "play-pause");
-  EXPECT_EQ(take(KEY_PLAYPAUSE, Action::Repeat, 1300), "-");
-  EXPECT_EQ(take(KEY_3D_MODE, Action::Repeat, 1400), "-");
-  EXPECT_EQ(held(5000), "-");
-}
-
-TEST_F(KeyReaderTest, ShiftAndCtrlMakeAnotherKeyWhereTheTableHasIt) {
-  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Press, 0), "-");
-  EXPECT_EQ(take(KEY_G, Action::Press, 100), "subtitle-size +0.1");
-  EXPECT_EQ(take(KEY_F, Action::Press, 150), "subtitle-size -0.1");
-  EXPECT_EQ(take(KEY_1, Action::Press, 200), "chapter -1");
-  EXPECT_EQ(take(KEY_Q, Action::Press, 250), "quit") << "it has no row of its own";
-  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Release, 300), "-");
-  EXPECT_EQ(take(KEY_1, Action::Press, 400), "seek 10%");
-  EXPECT_EQ(take(KEY_F, Action::Press, 450), "full-screen");
-  EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Press, 500), "-");
-  EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 550), "audio-delay +0.1");
-  EXPECT_EQ(take(KEY_KPPLUS, Action::Repeat, 900), "audio-delay +0.1");
-  EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Release, 950), "-");
-  EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 990), "volume +5");
-}
-
-TEST_F(KeyReaderTest, AKeyWithTwoMeaningsIsObeyedWhenItIsLetGoOf) {
-  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
-  EXPECT_EQ(held(599), "-");
-  EXPECT_EQ(take(KEY_OK, Action::Release, 599), "play-pause");
-  EXPECT_EQ(held(5000), "-");
-}
-
-TEST_F(KeyReaderTest, HeldLongEnoughItMeansTheOtherOnce) {
-  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
-  EXPECT_EQ(take(KEY_OK, Action::Repeat, 500), "-");
-  EXPECT_EQ(held(600), "info");
-  EXPECT_EQ(take(KEY_OK, Action::Repeat, 650), "-");
-  EXPECT_EQ(held(700), "-");
-  EXPECT_EQ(take(KEY_OK, Action::Release, 800), "-");
-}
-
-TEST_F(KeyReaderTest, AnotherKeyEndsAHold) {
-  EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
-  EXPECT_EQ(take(KEY_LEFT, Action::Press, 100), "seek -5");
-  EXPECT_EQ(held(900), "-");
-  EXPECT_EQ(take(KEY_OK, Action::Release, 950), "-");
-}
-
-TEST_F(KeyReaderTest, TheReleaseOfAnotherKeyLeavesAHoldAsItIs) {
-  EXPECT_EQ(take(KEY_RIGHT, Action::Press, 0), "seek +5");
-  EXPECT_EQ(take(KEY_OK, Action::Press, 100), "-");
-  EXPECT_EQ(take(KEY_RIGHT, Action::Release, 200), "-");
-  EXPECT_EQ(held(699), "-");
-  EXPECT_EQ(held(700), "info") << "OK is still held";
-}
-
-TEST_F(KeyReaderTest, AKeyThatIsHeldForItsOtherMeaningDoesNotRepeatTheFirst) {
-  auto table = KeyTable::parse("[always]\nRIGHT = { press = \"seek +10\", hold = \"info\" }", "k");
-  ASSERT_TRUE(table);
-  KeyReader reader(std::move(*table));
-  EXPECT_FALSE(reader.take({KEY_RIGHT, Action::Press, at(0)}, State::Playing));
-  EXPECT_FALSE(reader.take({KEY_RIGHT, Action::Repeat, at(500)}, State::Playing));
-  EXPECT_EQ(words(reader.held(at(600))), "info");
-}
-
-// The picture may stop while the key is down: it means what it meant when it was pressed.
-TEST_F(KeyReaderTest, AKeyMeansWhatItMeantWhenItWasPressed) {
-  auto table = KeyTable::parse("[playing]\nRED = { press = \"stop\", hold = \"info\" }", "k");
-  ASSERT_TRUE(table);
-  KeyReader reader(std::move(*table));
-  EXPECT_FALSE(reader.take({KEY_RED, Action::Press, at(0)}, State::Playing));
-  EXPECT_EQ(words(reader.take({KEY_RED, Action::Release, at(100)}, State::Paused)), "stop");
 }
 
 }  // namespace
