@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -32,6 +33,12 @@ inline std::vector<Packet> readAll(MediaSource& source) {
 
 inline void writeFile(const std::string& path, std::string_view content) {
   std::ofstream(path, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+}
+
+// Keeps the first `part` of the file, 0 to 1.
+inline void cutFile(const std::string& path, double part) {
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  std::filesystem::resize_file(path, static_cast<std::uintmax_t>(size * part));
 }
 
 }  // namespace relievo

@@ -6,7 +6,6 @@
 #include <malloc.h>
 
 #include <glm/geometric.hpp>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -14,76 +13,10 @@
 #include "platform/cyclic_thread.h"
 #include "tests/support/device/fake_haptic_device.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/unit/haptics/haptic_task_stage.h"
 
-namespace relievo {
+namespace relievo::test {
 namespace {
-
-using namespace std::chrono_literals;
-constexpr DisplayVolume kVolume{160, 108, 40};
-constexpr double kStiffness = 0.5;
-
-class HapticTaskTest : public testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_TRUE(device_.open() && device_.home() && device_.start());
-    task_ = std::make_unique<HapticTask>(device_, *method_, clock_, kVolume, SafetyLimits{}, kStiffness);
-  }
-  // A still plane at `height`, playing from time 0, with frames at 0 and 40 ms.
-  void publishPlane(double height, double rate = 1, bool ended = false) {
-    std::vector<Frame> frames;
-    for (const double t : {0.0, 0.04}) {
-      frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [&](double, double) { return height; }));
-    }
-    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = rate}, ended);
-  }
-  void publish(const std::vector<Frame>& frames, const ClockSample& clock, bool ended = false) {
-    SurfaceWindow& w = task_->windowToFill();
-    w = test::makeWindow(frames, kVolume);
-    w.clock = clock;
-    w.ended = ended;
-    task_->publishWindow();
-  }
-  // How many ticks pass until the feed counts as late, when the film begins now and has these frames.
-  int ticksUntilLate(std::initializer_list<double> times_s) {
-    std::vector<Frame> frames;
-    for (const double t : times_s) {
-      frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [](double, double) { return 20.0; }));
-    }
-    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = 1});
-    for (int ticks = 1; ticks < 2000; ++ticks) {
-      tick();
-      const auto told = faults();
-      if (told == std::vector{HapticFault::Kind::FeedStale}) return ticks;
-    }
-    return 0;
-  }
-  void tick(int n = 1) {
-    for (int i = 0; i < n; ++i) {
-      clock_.advance(1ms);
-      ASSERT_EQ(task_->loop({index_++, clock_.now(), clock_.now()}), LoopControl::Continue);
-    }
-  }
-  // From 1 mm outside a plane at 20 mm to `depth` inside, slowly enough not to count as a jump.
-  void press(double depth) {
-    for (double z = 1; z > -depth; z -= 0.25) {
-      device_.position = {0, 0, z};
-      tick();
-    }
-    device_.position = {0, 0, -depth};
-    tick();
-  }
-  std::vector<HapticFault::Kind> faults() {
-    std::vector<HapticFault::Kind> kinds;
-    while (const auto fault = task_->nextFault()) kinds.push_back(fault->kind);
-    return kinds;
-  }
-
-  ManualClock clock_{MonotonicTime{} + 5s};
-  test::FakeHapticDevice device_;
-  std::unique_ptr<TouchMethod> method_ = makeMethod("modified-proxy-graph", {.stiffness_n_per_mm = kStiffness});
-  std::unique_ptr<HapticTask> task_;
-  std::uint64_t index_ = 0;
-};
 
 // As when a mouse is lifted: the device moves without touching anything.
 TEST_F(HapticTaskTest, TheClutchTakesTheForceAway) {
@@ -263,105 +196,6 @@ TEST_F(HapticTaskTest, AForceThatCouldNotBeWrittenIsTold) {
   EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceLost});
 }
 
-// Pushes with 1 N, wherever the finger is.
-class Pusher final : public TouchMethod {
- public:
-  Touch update(const glm::dvec3& hip_mm, const SurfaceWindow&, MediaTime) RELIEVO_RT override {
-    return {.proxy_mm = hip_mm + glm::dvec3(0, 0, 1 / kStiffness), .force_n = {0, 0, 1}, .contact = true};
-  }
-  void reset() RELIEVO_RT override { ++resets; }
-  int resets = 0;
-};
-
-class PushedTaskTest : public HapticTaskTest {
- protected:
-  void SetUp() override {
-    HapticTaskTest::SetUp();
-    task_ = std::make_unique<HapticTask>(device_, pusher_, clock_, kVolume, kLimits, kStiffness);
-  }
-  // While no tick runs, as the player does: two seconds.
-  void plugInAgain() {
-    device_.close();
-    ASSERT_TRUE(device_.open() && device_.home() && device_.start());
-    clock_.advance(2s);
-  }
-  static constexpr SafetyLimits kLimits{.limit_energy = false};
-  Pusher pusher_;
-};
-
-TEST_F(PushedTaskTest, ADeviceThatIsBackIsPushedFromZeroOnAtTheScenesRate) {
-  tick(50);
-  ASSERT_NEAR(device_.force.z, 1, 1e-9);
-  device_.next_error = ErrorCode::Lost;
-  tick();
-  EXPECT_EQ(pusher_.resets, 1) << "what the method remembers is not so any more";
-  plugInAgain();
-  task_->deviceIsBack();
-  for (int i = 0; i <= 20; ++i) {
-    tick();
-    ASSERT_NEAR(device_.force.z, 0.05 * i, 1e-9) << i << ": 50 N/s";
-  }
-}
-
-TEST_F(PushedTaskTest, AnotherFilmIsPushedFromZeroOnAlsoOnADeviceThatWasLost) {
-  for (const bool lost : {false, true}) {
-    if (lost) device_.next_error = ErrorCode::Lost;
-    tick(50);
-    plugInAgain();
-    Pusher other;
-    task_->changeScene(other, kVolume, kLimits, kStiffness);
-    for (int i = 0; i <= 20; ++i) {
-      tick();
-      ASSERT_NEAR(device_.force.z, 0.05 * i, 1e-9) << lost << ' ' << i;
-    }
-    task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
-  }
-}
-
-// The spring is loaded with F^2/2K = 1 mJ by each film; 1 N that is held for the 0.1 mm before the finger is where
-// nothing was wanted would be an artefact, and is one of the first film alone.
-TEST_F(PushedTaskTest, TheEnergyBooksGoOnFromFilmToFilm) {
-  tick(50);
-  const double first = task_->counters().scene_energy_mj.load();
-  EXPECT_NEAR(first, 1, 1e-9);
-  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
-  tick(2);
-  device_.position.z = 1;  // the force lags: it is 0.05 of the 1 N
-  tick();
-  const double artefact = task_->counters().artefact_energy_mj.load();
-  EXPECT_NEAR(artefact, 0.05 - 1, 0.03);
-  tick(50);
-  const double second = task_->counters().scene_energy_mj.load();
-  EXPECT_GT(second, first + 0.5);
-  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
-  tick(50);
-  EXPECT_NEAR(task_->counters().scene_energy_mj.load(), second + 1, 1e-9);
-  EXPECT_NEAR(task_->counters().artefact_energy_mj.load(), artefact, 1e-9);
-}
-
-TEST_F(PushedTaskTest, AnotherFilmHasABoxOfItsOwnAndAHandThatIsToldByIt) {
-  // 192 mm of the device are free: a picture of 384 is reached at two scene millimetres for one.
-  task_->changeScene(pusher_, {.width_mm = 384, .height_mm = 108, .depth_mm = 40}, kLimits, kStiffness);
-  device_.position = {10, 0, 0};
-  tick();
-  ASSERT_TRUE(task_->refreshFinger());
-  EXPECT_NEAR(task_->finger().hip_mm.x, 20, 1e-9);
-  // A wall of K is felt as one of 2 K: the hand's 0.5 mm may change the force by 0.5 N, the scene by 0.05 more.
-  device_.position = {10.5, 0, 0};
-  tick();
-  EXPECT_NEAR(device_.force.z, 0.55, 1e-9);
-}
-
-TEST_F(PushedTaskTest, WhatWasLateOfOneFilmIsNotToldOfTheNext) {
-  publishPlane(20);
-  tick(200);
-  ASSERT_EQ(faults(), std::vector{HapticFault::Kind::FeedStale});
-  task_->changeScene(pusher_, kVolume, kLimits, kStiffness);
-  publishPlane(20);
-  tick();
-  EXPECT_TRUE(faults().empty());
-}
-
 // Records how often the device had been read and written when each function of the method was called.
 class Witness final : public TouchMethod {
  public:
@@ -393,4 +227,4 @@ TEST_F(HapticTaskTest, FetchesBeforeTheDeviceIsAskedAndKeepsUpWhenTheForceIsOut)
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::test

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are cut, or that begin late: what is missing, and their times.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/mkv_patch.h"
+#include "tests/unit/drivers/ffmpeg_sources.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::makeClip;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(FfmpegSource, ACutFileEndsLikeAWholeOne) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.ts", "a.flv"}) {
+    makeClip(folder / name, {kH264});
+    cutFile(folder / name, 0.6);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    const auto packets = readAll(*source);
+    EXPECT_GT(packets.size(), 10u) << name;
+    EXPECT_LT(packets.size(), 48u) << name;
+    EXPECT_EQ(source->state(), MediaSource::State::Ended) << name;
+  }
+}
+
+// 48 pictures are 2 s.
+TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.flv", "a.avi"}) {
+    makeClip(folder / name, {kH264});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is whole";
+    ASSERT_TRUE(source->seek(mediaTime(60)).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " has nothing beyond its end";
+    source->close();
+
+    cutFile(folder / name, 0.6);
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is not known before its end";
+    const auto packets = readAll(*source);
+    // With reordering, a later picture's packet precedes those of earlier pictures.
+    const double there = static_cast<double>(packets.size()) / 24;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.25) << name;
+  }
+}
+
+// 48 pictures are 2 s. A multiplex states no length: its last time was read when it was opened.
+TEST(FfmpegSource, TellsHowMuchIsMissingOfAMultiplexThatIsCutWhileItIsRead) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.ts", "a.mpg"}) {
+    const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
+    makeClip(folder / name, {large});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name << " is whole";
+    ASSERT_TRUE(source->seek(MediaTime{}).has_value()) << name;
+    cutFile(folder / name, 0.5);
+    const auto packets = readAll(*source);
+    const double there = static_cast<double>(packets.size()) / 24;
+    EXPECT_LT(there, 1.7) << name;
+    EXPECT_NEAR(toSeconds(source->missing()), 2 - there, 0.3) << name;
+  }
+}
+
+// As a copy leaves it that was broken off on a file system which had given it its size. 48 pictures are 2 s.
+TEST(FfmpegSource, TellsThatATransportStreamEndsInWhatIsNone) {
+  TemporaryFolder folder;
+  const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
+  makeClip(folder / "a.ts", {large});
+  const auto whole = std::filesystem::file_size(folder / "a.ts");
+  cutFile(folder / "a.ts", 0.3);
+  std::filesystem::resize_file(folder / "a.ts", whole);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.ts").has_value());
+  const double there = static_cast<double>(readAll(*source).size()) / 24;
+  EXPECT_LT(there, 1);
+  EXPECT_GT(source->missing(), std::chrono::milliseconds(400)) << "by bytes, of which the first picture has the most";
+  EXPECT_LT(toSeconds(source->missing()), 2 - there);
+}
+
+// FFmpeg passes over a segment that it cannot open.
+TEST(FfmpegSource, TellsThatAPartOfAListIsGone) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.ts", {kH264});
+  std::filesystem::copy_file(folder / "a.ts", folder / "b.ts");
+  writeFile(folder / "list.m3u8",
+            "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\na.ts\n#EXTINF:2,\ngone.ts\n#EXT-X-DISCONTINUITY\n#EXTINF:2,"
+            "\nb.ts\n"
+            "#EXT-X-ENDLIST\n");
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "list.m3u8").has_value());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(readAll(*source).size(), 96U);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("list.m3u8: its part file:" + folder / "gone.ts"));
+}
+
+// 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
+// states.
+TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
+  TemporaryFolder folder;
+  ClipTrack track = kH264;
+  track.gop = 12;
+  makeClip(folder / "a.mkv", {track});
+  std::ofstream(folder / "a.srt") << "1\n00:00:00,600 --> 00:00:09,000\nlong\n";
+  const std::string mux = "cd '" + folder / "" + "' && ffmpeg -v error -i a.mkv -i a.srt -c copy b.mkv";
+  if (std::system(mux.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "b.mkv").has_value());
+  EXPECT_NEAR(toSeconds(source->duration()), 9, 0.01);
+  for (const double place : {0.0, 1.6, 0.0}) {
+    ASSERT_TRUE(source->seek(mediaTime(place)).has_value()) << place;
+    EXPECT_GT(readAll(*source).size(), 0U) << place;
+    EXPECT_EQ(source->missing(), Duration(0)) << place;
+  }
+}
+
+// 90 pictures are 3 s. The containers state a length from time 0, or from the first picture.
+TEST(FfmpegSource, AFilmThatBeginsLateIsWholeAndIsSoughtByItsOwnTime) {
+  TemporaryFolder folder;
+  for (const char* name : {"a.mkv", "a.mp4", "a.mov", "a.flv", "a.ts"}) {
+    ClipTrack late = kH264;
+    late.frames = 90;
+    late.start = std::chrono::seconds(100);
+    makeClip(folder / name, {late});
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_NEAR(toSeconds(source->duration()), 3, 0.05) << name;
+    EXPECT_EQ(readAll(*source).size(), 90u) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+    ASSERT_TRUE(source->seek(mediaTime(2.5)).has_value()) << name;
+    const auto packets = readAll(*source);
+    ASSERT_FALSE(packets.empty()) << name;
+    EXPECT_GT(packets[0].pts.value(), mediaTime(1)) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+  }
+  cutFile(folder / "a.mkv", 0.6);
+  const auto cut = makeFfmpegSource();
+  ASSERT_TRUE(cut->open(folder / "a.mkv").has_value());
+  const auto there = static_cast<double>(readAll(*cut).size()) / 30;
+  EXPECT_NEAR(toSeconds(cut->missing()), 3 - there, 0.3);
+}
+
+TEST(FfmpegSource, TimesThatJumpBackGoOnWhereTheyWere) {
+  TemporaryFolder folder;
+  const std::string path = folder / "a.mkv";
+  makeClip(path,
+           {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 5, .frames = 75, .gop = 5, .b_frames = 2}},
+           {}, {{.length = std::chrono::seconds(15)}});
+  const auto times = [&] {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(path).has_value());
+    std::vector<MediaTime> all;
+    for (const Packet& packet : readAll(*source)) {
+      if (packet.stream == 0) all.push_back(packet.pts.value());
+    }
+    EXPECT_EQ(source->missing(), Duration(0));
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto before = times();
+  ASSERT_GT(test::moveClustersBack(path, 6000, 4000), 0);
+  testing::internal::CaptureStderr();
+  const auto after = times();
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::AllOf(HasSubstr("a.mkv: its times jump back by"), HasSubstr("made continuous")));
+  ASSERT_EQ(after.size(), 75u);
+  for (std::size_t k = 0; k < after.size(); ++k) {
+    EXPECT_LE(std::chrono::abs(after[k] - before[k]), std::chrono::milliseconds(250)) << k;
+    EXPECT_TRUE(k == 0 || after[k] > after[k - 1]) << k;
+  }
+}
+
+}  // namespace
+}  // namespace relievo
