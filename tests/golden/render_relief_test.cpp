@@ -1,74 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The position of the relief: each eye's image of marked points against similar triangles, and the height that the two
-// eyes see against the height that the finger feels.
+// The position of the relief: each eye's image of marked points against similar triangles.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/scene/height_field.h"
 #include "tests/golden/picture_stage.h"
+#include "tests/golden/relief_markers.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo::test {
 namespace {
-
-// Half of a side-by-side surface is 640 x 720 and shows 160 x 90 mm: 4 pixels a mm across, 8 down.
-constexpr DisplayVolume kVolume{160.0, 90.0, 40.0};
-constexpr int kSurfaceWidth = 1280, kSurfaceHeight = 720;
-constexpr double kPixelsPerMmX = 4.0, kPixelsPerMmY = 8.0;
-constexpr int kColorWidth = 640, kColorHeight = 360;
-constexpr double kEyes = 63.0, kDistance = 600.0, kScreenZ = 20.0;
-
-// A white square of 9 x 9 pixels on black, and the position of its middle in the scene.
-struct Marker {
-  int x, y;
-  [[nodiscard]] double xMm() const { return ((x + 0.5) / kColorWidth - 0.5) * kVolume.width_mm; }
-  [[nodiscard]] double yMm() const { return (0.5 - (y + 0.5) / kColorHeight) * kVolume.height_mm; }
-};
-
-Frame markerPicture(const Marker& marker) {
-  return makeRgbFrame(kColorWidth, kColorHeight, [&](int x, int y) {
-    const bool lit = std::abs(x - marker.x) <= 4 && std::abs(y - marker.y) <= 4;
-    return lit ? Rgb{255, 255, 255} : Rgb{0, 0, 0};
-  });
-}
-
-// The point where the ray from the eye through (x, y, z) meets the screen plane, in pixels of the eye's half from the
-// top left.
-struct Pixel {
-  double x, y;
-};
-Pixel onScreen(double eye_x, double x, double y, double z) {
-  const double grow = kDistance / (kDistance - (z - kScreenZ));
-  return {(eye_x + (x - eye_x) * grow + 80.0) * kPixelsPerMmX, (45.0 - y * grow) * kPixelsPerMmY};
-}
-
-std::uint32_t code16(double z) {
-  return static_cast<std::uint32_t>(std::lround(z / kVolume.depth_mm * 65535.0));
-}
-
-Scene sideBySide(const Marker& marker, Frame depth) {
-  return {.color = markerPicture(marker),
-          .depth = std::move(depth),
-          .calibration = {.bits = 16},
-          .volume = kVolume,
-          .stereo = {.layout = StereoLayout::SideBySide}};
-}
-
-void expectMarker(const Image& image, const Marker& marker, double z) {
-  const Spot left = image.centroid(0, 0, 640);
-  const Spot right = image.centroid(0, 640, 1280);
-  const Pixel left_paper = onScreen(-kEyes / 2, marker.xMm(), marker.yMm(), z);
-  const Pixel right_paper = onScreen(kEyes / 2, marker.xMm(), marker.yMm(), z);
-  EXPECT_NEAR(left.x, left_paper.x, 0.25);
-  EXPECT_NEAR(right.x - 640, right_paper.x, 0.25);
-  EXPECT_NEAR(left.y, left_paper.y, 0.25);
-  EXPECT_NEAR(left.y, right.y, 0.05) << "vertical parallax";
-  // x_left - x_right = e h / (d - h), to within a quarter of a pixel.
-  const double h = z - kScreenZ;
-  EXPECT_NEAR(left.x - (right.x - 640), kPixelsPerMmX * kEyes * h / (kDistance - h), 0.25);
-}
 
 TEST(RenderRelief, PlaneLiesWhereItsDepthSays) {
   STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
@@ -138,116 +80,6 @@ TEST(RenderRelief, NearerSurfaceHidesTheFartherForEachEyeOfAnAnaglyph) {
   // Right eye, in green: the floor ends where the wall begins, left of the middle.
   EXPECT_GT(image.channel(middle - edge - 3, 360, 1), 250);
   EXPECT_LT(image.channel(middle - edge + 3, 360, 1), 5);
-}
-
-// The height at which the two eyes see the surface, from the disparity of a marker: h = p d / (e + p).
-double heightSeen(Stage& stage, Frame depth, const DepthCalibration& calibration) {
-  constexpr double kWideEyes = 400.0;
-  Scene scene = sideBySide({320, 180}, std::move(depth));
-  scene.calibration = calibration;
-  scene.stereo.eye_distance_mm = kWideEyes;
-  const Image image = stage.show(scene);
-  const double disparity = image.centroid(0, 0, 640).x - (image.centroid(0, 640, 1280).x - 640);
-  const double p = disparity / kPixelsPerMmX;
-  return kScreenZ + p * kDistance / (kWideEyes + p);
-}
-
-void expectHeightFelt(Stage& stage, const Frame& depth, const DepthCalibration& calibration) {
-  const double felt = HeightField::make(depth, calibration, kVolume).value().heightMm(0, 0);
-  EXPECT_NEAR(heightSeen(stage, depth, calibration), felt, 0.1) << "code law " << static_cast<int>(calibration.law);
-}
-
-TEST(RenderRelief, EyesSeeTheHeightThatTheFingerFeels) {
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  for (const std::uint32_t code : {0u, 16u, 77u, 200u, 235u, 255u}) {
-    for (const ColorRange range : {ColorRange::Full, ColorRange::Limited}) {
-      for (const DepthPolarity polarity : {DepthPolarity::NearIsHigh, DepthPolarity::NearIsLow}) {
-        for (const DepthLaw law : {DepthLaw::Linear, DepthLaw::Inverse}) {
-          SCOPED_TRACE(testing::Message() << "code " << code << ", range " << static_cast<int>(range) << ", polarity "
-                                          << static_cast<int>(polarity));
-          expectHeightFelt(stage, makePlane(32, 18, 8, code), {.law = law, .polarity = polarity, .range = range});
-        }
-      }
-    }
-  }
-}
-
-TEST(RenderRelief, HeightsOfKnownCodesAreRightOnPaper) {
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {}), 8.0, 0.1);  // 51/255 = 1/5 of 40
-  // Inverse, 500 to 5000 mm: s = 0.2 is Z = 1/(0.2/500 + 0.8/5000) = 1785.7, z = 40 * 3214.3/4500 = 28.571.
-  EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.law = DepthLaw::Inverse}), 28.571, 0.1);
-  // Limited: (51 - 16)/219 of 40 = 6.393; with near low, 40 minus that.
-  EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.range = ColorRange::Limited}), 6.393, 0.1);
-  EXPECT_NEAR(heightSeen(stage, makePlane(32, 18, 8, 51), {.polarity = DepthPolarity::NearIsLow}), 32.0, 0.1);
-}
-
-TEST(RenderRelief, DeepCodesAreReadByTheirBitsAndShift) {
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  expectHeightFelt(stage, makePlane(32, 18, 10, 300), {.bits = 10});
-  expectHeightFelt(stage, makePlane(32, 18, 10, 300), {.range = ColorRange::Limited, .bits = 10});
-  expectHeightFelt(stage, makePlane(32, 18, 16, 50'000), {.bits = 16});
-  // P010 keeps its ten bits at the top of the word; the bits below are ignored.
-  Frame high = makePlane(32, 18, 16, 300u << 6 | 0x2au);
-  high.components[0].bits = 10;
-  high.components[0].shift = 6;
-  expectHeightFelt(stage, high, {.bits = 10});
-  EXPECT_NEAR(heightSeen(stage, high, {.bits = 10}), 40.0 * 300 / 1023, 0.1);
-}
-
-TEST(RenderRelief, CodesBetweenOtherSamplesAreFound) {
-  // Luma in every second byte, after a chroma byte: the packing of UYVY.
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  Frame packed = makePlane(64, 18, 8, 0);
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>(64 * 18);
-  for (std::size_t i = 0; i < bytes->size(); ++i) (*bytes)[i] = i % 2 == 1 ? 102 : 240;
-  packed.width = 32;
-  packed.components[0] = {.offset_bytes = 1, .step_bytes = 2};
-  packed.planes[0] = {bytes->data(), 64};
-  packed.owner = bytes;
-  EXPECT_NEAR(heightSeen(stage, packed, {}), 16.0, 0.1);  // 102/255 of 40
-}
-
-// The standard hexagon's hue for s, as footage in this coding stores it.
-Rgb hueColor(double s) {
-  const double sixth = s * 6.0;
-  const auto ramp = [&](double centre) {
-    double away = std::abs(sixth - centre);
-    away = std::min(away, 6.0 - away);
-    return static_cast<int>(std::lround(255.0 * std::clamp(2.0 - away, 0.0, 1.0)));
-  };
-  return {ramp(0), ramp(2), ramp(4)};
-}
-
-constexpr DepthCalibration kHue{.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
-
-TEST(RenderRelief, HueIsReadRoundTheWholeCircle) {
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  for (const double s : {0.0, 0.1, 0.25, 0.4, 0.55, 0.7, 0.85, 0.95}) {
-    SCOPED_TRACE(s);
-    const Frame hue = makeRgbFrame(32, 18, [s](int, int) { return hueColor(s); }, {.step = 4});
-    EXPECT_NEAR(heightSeen(stage, hue, kHue), 40.0 * (1.0 - s), 0.15);
-    expectHeightFelt(stage, hue, kHue);
-  }
-}
-
-TEST(RenderRelief, HueAndLumaOfTheSameReliefGiveTheSamePicture) {
-  STAGE_OR_SKIP(stage, kSurfaceWidth, kSurfaceHeight);
-  const auto s = [](int c, int r) { return 0.5 + 0.35 * std::sin(c * 0.07) * std::cos(r * 0.09); };
-  Scene scene{.color = makeRgbFrame(160, 90, [](int x, int y) { return Rgb{x, 255 - x, (x / 8 + y / 8) % 2 * 255}; }),
-              .depth = makeRgbFrame(160, 90, [&](int c, int r) { return hueColor(s(c, r)); },
-                                    {.step = 4, .offsets = {2, 1, 0}}),
-              .calibration = kHue,
-              .volume = kVolume,
-              .stereo = {.layout = StereoLayout::SideBySide}};
-  const Image by_hue = stage.show(scene);
-  scene.depth = makeGrayFrame(160, 90, 16, MediaTime{}, [&](int c, int r) { return 65535.0 * (1.0 - s(c, r)); });
-  scene.calibration = {.bits = 16};
-  const Image by_luma = stage.show(scene);
-  // A hue of 1530 steps is 0.013 mm off at most: a hundredth of a pixel of disparity.
-  EXPECT_LT(by_hue.meanDifference(by_luma), 0.2);
-  scene.depth = makePlane(160, 90, 16, 32768);
-  EXPECT_GT(by_hue.meanDifference(stage.show(scene)), 2.0);  // and the relief is in the picture
 }
 
 // Code 0 is the far plane where no code is invalid.
