@@ -34,7 +34,7 @@ struct DeviceProfile {
   glm::dvec3 workspace_min_mm{-100, -80, -40};  // end stops: the mass comes to rest there
   glm::dvec3 workspace_max_mm{100, 80, 80};
   double rate_hz = 1000;
-  double most_rate_hz = kMostRateHz;  // that it can be asked for; delay and jitter stay as many ticks
+  double most_rate_hz = kMostRateHz;  // the highest that can be requested; delay and jitter keep their number of ticks
   int delay_ticks = 1;                // a force acts this many writes later, at most kMaxDelayTicks; 0: at once
   double jitter_ticks = 0;            // a further random delay, new each tick, from 0 to this; at most 1
   std::uint64_t jitter_seed = 1;

@@ -76,8 +76,8 @@ struct SurfaceMouse {
   bool pressed = false;  // the left button
   int notches = 0;       // that the wheel has been turned by just now, forward positive
 };
-// True if what is drawn there takes the press: until the button is released, the press does not reach the finger.
-// Likewise the wheel.
+// Returns true if the on-screen display takes the press: until the button is released, the press then does not reach
+// the finger. The same holds for the wheel.
 using MouseListener = std::function<bool(const SurfaceMouse&)>;
 
 enum class FullScreen : std::uint8_t { Off, On, Toggle };
@@ -94,8 +94,8 @@ struct DisplaySurface {
   int eye_gap_rows = 0;
 };
 
-// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed; `attend` when Open. A call in
-// a state that does not allow it returns InvalidState and changes nothing.
+// States: Closed -open-> Open -beginFrame-> Drawing -present-> Open; any -close-> Closed; `attend` only when Open. A
+// call in a state that does not allow it returns InvalidState and changes nothing.
 //
 // Thread: the one that opened it, since a GL context belongs to a thread. Blocking: `present` may wait for the next
 // refresh; if that does not come, it soon returns Lost. Lost: the screen has gone; `close`, then `open` again when it

@@ -23,7 +23,7 @@ struct HapticCapabilities {
   double max_stiffness_n_per_mm = 0;  // stable at rate_hz
   double rate_hz = 1000;
   bool in_scene = false;        // its frame is the scene's: it points at the picture
-  bool rests_in_pause = false;  // it tells of the force by signs that would go on while the film is paused
+  bool rests_in_pause = false;  // it signals the force by rumble, which would go on while the film is paused
 };
 
 struct HapticSample {
@@ -45,9 +45,9 @@ class HapticDevice {
   enum class State : std::uint8_t { Closed, Opened, Ready, Running, Lost };
   virtual ~HapticDevice() = default;
 
-  // Asks for that many ticks a second in place of the device's own best. Returns what it will be, as `capabilities`
-  // tells from then on: `hz`, or the most that the device can, or its own where it has only one. InvalidArgument if not
-  // from kLeastRateHz to kMostRateHz; Closed only.
+  // Requests `hz` ticks per second instead of the device's default rate. Returns the rate that `capabilities` reports
+  // from then on: `hz`, or the device's highest rate, or its only one. InvalidArgument if not from kLeastRateHz to
+  // kMostRateHz; Closed only.
   [[nodiscard]] Result<double> setRate(double hz);
   // NotFound, PermissionDenied, Unsupported, Timeout.
   [[nodiscard]] Result<void> open();
@@ -68,8 +68,8 @@ class HapticDevice {
   [[nodiscard]] State state() const noexcept { return state_; }
   // Known from `open` on; never changes while open.
   [[nodiscard]] virtual HapticCapabilities capabilities() const noexcept = 0;
-  // For a device that passes forces on in its own thread: the times from the first `write` of a contact until the
-  // device has taken it, since its making. Null for others. Any thread.
+  // For a device that sends forces on a thread of its own: a histogram, since construction, of the time from the first
+  // `write` of a contact until the device has taken it. Null for others. Any thread.
   [[nodiscard]] virtual const Histogram* contactDelays() const noexcept { return nullptr; }
 
  protected:

@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Of a key that is pressed while Shift or Ctrl is held: the key's code, and these.
+// Bits that are added to a key's code while Shift or Ctrl is held.
 inline constexpr std::uint16_t kWithShift = 0x4000, kWithCtrl = 0x8000;
 [[nodiscard]] constexpr std::uint16_t withoutShiftAndCtrl(std::uint16_t code) noexcept {
   return code & static_cast<std::uint16_t>(~(kWithShift | kWithCtrl));

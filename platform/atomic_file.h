@@ -55,7 +55,7 @@ class AtomicFile {
   std::string temporary_;  // empty: `target_` is written directly
   Existing existing_ = Existing::Replace;
   bool nameless_ = false;  // `temporary_` is the open file's path in /proc
-  bool answers_ = true;    // the file system does
+  bool answers_ = true;    // false once the file system has not answered in time
 };
 
 }  // namespace relievo

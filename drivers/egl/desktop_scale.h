@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much larger than usual a desktop wants things drawn.
+// The scale factor at which the desktop wants things drawn.
 #pragma once
 
 namespace relievo {
 
-// 1, 2, ..: of an X desktop by its resource Xft.dpi, 96 of which are usual, of the server that DISPLAY names. 1 without
-// that resource, and on Wayland, which enlarges windows by itself. Waits for the server's answer. After SDL's start.
+// Returns 1, 2, ..: for the X desktop that DISPLAY names, its resource Xft.dpi over the usual 96. Returns 1 without
+// that resource, and on Wayland, which enlarges windows itself. Waits for the X server's answer. Call after SDL has
+// started.
 [[nodiscard]] int desktopScale() noexcept;
 
 }  // namespace relievo

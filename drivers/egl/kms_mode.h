@@ -35,9 +35,9 @@ enum class Packing : std::uint8_t {
 
 [[nodiscard]] Duration refreshPeriod(const drmModeModeInfo& mode) noexcept;
 
-// The size of the buffer, and of its part that the plane is told of. A tall one holds both eyes' pictures and the
-// blanking between them (HDMI 1.4a, 8.2.3.2; drm_mode_set_crtcinfo, CRTC_STEREO_DOUBLE); of two side by side the plane
-// is told of the left one.
+// The size of the buffer, and of the part of it that the plane is set to. A tall buffer holds both eyes' pictures and
+// the blanking between them (HDMI 1.4a, 8.2.3.2; drm_mode_set_crtcinfo, CRTC_STEREO_DOUBLE); of two pictures side by
+// side the plane is set to the left one.
 struct ScanOut {
   int width = 0, height = 0;
   int plane_width = 0, plane_height = 0;

@@ -43,7 +43,7 @@ class WindowDisplay final : public Display {
   [[nodiscard]] bool fillsScreen() const noexcept override {
     return by_hand_ || (SDL_GetWindowFlags(window_) & SDL_WINDOW_FULLSCREEN) != 0;
   }
-  // The width of the current surface. SDL says that a window fills the screen as soon as it has asked for that.
+  // The width of the current EGL surface. SDL cannot be asked: it reports full screen as soon as it has requested it.
   [[nodiscard]] static int trueWidth() noexcept;
   [[nodiscard]] static int trueHeight() noexcept;
   void followFullScreen();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The events of an input device as a real-time driver reads them: without waiting, and without those of a report that
-// the kernel's queue lost a part of.
+// Reads an input device's events on a real-time thread: without waiting, and without reports of which the kernel's
+// queue has lost a part.
 #pragma once
 
 #include <linux/input.h>

@@ -74,7 +74,8 @@ struct Frame {
   bool top_field_first = true;                 // even rows (from 0) before odd ones
   double sample_aspect = 1.0;                  // width of a sample over its height
   ViewLayout views;
-  double value_per_code = 0;  // of floating-point samples: hal/media/float_codes.h; 0: codes are all there is
+  double value_per_code =
+      0;  // floating-point value of one code (hal/media/float_codes.h); 0: the samples were whole numbers
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;

@@ -19,11 +19,11 @@ namespace relievo {
 class AnsweredOutput {
  public:
   AnsweredOutput() = default;  // no file
-  // `path` tells the mount. Without O_APPEND; a pipe or a device is written in the order of the calls.
+  // `path` identifies the mount. `fd` must not have O_APPEND; a pipe or a device is written in the order of the calls.
   AnsweredOutput(UniqueFd fd, std::string path);
   [[nodiscard]] bool valid() const noexcept { return state_ != nullptr; }
 
-  // Once it is set, what waits ends with Cancelled within about 0.1 s. Null: nothing is cancelled.
+  // Once the flag is set, waiting calls return Cancelled within about 0.1 s. Null: calls cannot be cancelled.
   void cancelBy(const std::atomic<bool>* flag) noexcept;
   [[nodiscard]] const std::atomic<bool>* cancelFlag() const noexcept;
 
@@ -31,9 +31,9 @@ class AnsweredOutput {
   [[nodiscard]] Result<void> write(std::uint64_t offset, std::span<const std::uint8_t> bytes);
   // Waits until the kernel has all that was written.
   [[nodiscard]] Result<void> flush();
-  // The same until the disk has it.
+  // Waits until the disk has all that was written.
   [[nodiscard]] Result<void> sync();
-  // What was written, until `out` is full or the file ends.
+  // Reads back what was written, until `out` is full or the file ends.
   [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::uint8_t> out);
 
   [[nodiscard]] std::uint64_t bytes() const noexcept;  // where the farthest write ended

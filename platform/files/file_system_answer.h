@@ -32,7 +32,7 @@ class FileSystemAnswers {
   // while an earlier question about the same mount is still unanswered after that time; Cancelled (CancelsAnswers).
   // After an error `question` may still run, now or later: it must own all that it uses.
   [[nodiscard]] Result<void> ask(const std::string& path, std::function<void()> question);
-  // Runs `act`, such as a close, and waits for nothing. What it returns is for `giveUp`.
+  // Starts `act`, such as a close, without waiting for it. The result can be passed to `giveUp`.
   std::shared_ptr<void> leave(std::function<void()> act);
   // Until this act ends, questions about the mount of `path` fail at once.
   void giveUp(const std::string& path, const std::shared_ptr<void>& act);

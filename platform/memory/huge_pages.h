@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fewer and larger pages under a big picture: a finger that crosses 4K depth reads rows that lie pages apart, and most
-// of its time goes to looking up where they are.
+// Fewer and larger pages under a big picture: a finger that crosses 4K depth reads rows that lie pages apart, and
+// spends most of its time on address translation.
 #pragma once
 
 #include <cstddef>
