@@ -13,11 +13,11 @@ struct AVFormatContext;
 
 namespace relievo::ffmpeg {
 
-// A file's decoding times never fall, whatever its gaps. Where they do, the film continues where it was. Pictures
-// without a decoding time may be reordered and judge nothing.
+// In an intact file decoding times never decrease. Where they do, later times are shifted so that the film continues
+// from where it was. Pictures without a decoding time may be out of order, so they are shifted but not compared.
 class FileTimes {
  public:
-  // At the beginning, or after a seek.
+  // Call at the beginning, and after a seek.
   void begin() noexcept;
   // `url` names the film in the log.
   void mend(Packet& packet, const std::string& url);
@@ -33,11 +33,11 @@ class FileEnd {
  public:
   // As the file was opened; `start` is the container's (startOf).
   void open(const AVFormatContext& context, Duration start) noexcept;
-  // What is skipped is not missing.
+  // Call for a seek: what it skips is not missing.
   void seek(MediaTime target) noexcept;
   // `position` of the packet in the file, in bytes; below 0 if unknown.
   void note(const Packet& packet, Duration length, std::int64_t position) noexcept;
-  // After the last packet. The container of `open`, with times.
+  // Call after the last packet, with the container that was passed to `open`, if it has times.
   void reach(const AVFormatContext& context) noexcept;
   // 0 until the end was reached, for a whole film, and if unknown.
   [[nodiscard]] Duration missing() const noexcept { return missing_; }

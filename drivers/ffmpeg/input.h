@@ -33,8 +33,8 @@ class Input {
   };
   // A container that was opened before stays open.
   [[nodiscard]] Result<Opened> open(const std::string& url);
-  // Before each read: the container may open as many files and addresses again as it could at first, and those of them
-  // that cannot be opened are told, as parts of the film.
+  // Call before each read. Resets the number of files and addresses that the container may still open. From now on, a
+  // file that cannot be opened is reported as a missing part of the film.
   void beginReading() noexcept {
     opens_ = 0;
     tells_lost_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What went wrong with a network source, in one sentence a kind.
+// What went wrong with a network source: one sentence for each kind of failure.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ namespace relievo::ffmpeg {
 
 inline constexpr Duration kOpenPatience = std::chrono::seconds(30);  // an index may be long and the connection slow
 inline constexpr Duration kReadPatience = std::chrono::seconds(10);
-// What has taken longer than these.
+// The error for an opening that took longer than kOpenPatience, or a read that got no data in time.
 [[nodiscard]] Error lateOpening(Way way) noexcept;
 [[nodiscard]] Error lateReading(Way way) noexcept;
 

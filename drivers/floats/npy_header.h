@@ -25,8 +25,9 @@ struct Header {
 };
 
 [[nodiscard]] bool isNpy(std::span<const std::uint8_t> begin) noexcept;
-// `begin`: the file's first kLongestHeader bytes, or all of it. Nullopt if it is none, if the numbers are of another
-// type, if the array has another shape, or if its pictures have more samples than VideoDecoder::kMostSamples.
+// `begin`: the file's first kLongestHeader bytes, or the whole file. Nullopt if it is no npy header, if the numbers are
+// of another type, if the array has another shape, or if its pictures have more samples than
+// VideoDecoder::kMostSamples.
 [[nodiscard]] std::optional<Header> parseHeader(std::span<const std::uint8_t> begin);
 
 }  // namespace relievo::npy

@@ -23,24 +23,25 @@ struct FilePicture {
   Frame frame;  // instead of samples, if it is not empty: whole numbers that need no conversion
 };
 
-// A format: its name in StreamInfo::codec, and its reader. The reader returns nullopt for a damaged file, or one whose
-// picture is none that it reads or is larger than VideoDecoder::kMostSamples; it allocates nothing in proportion to a
-// size before that check.
+// A format: its name in StreamInfo::codec, and its reader. The reader returns nullopt if the file is damaged, if it
+// cannot read the picture, or if the picture is larger than VideoDecoder::kMostSamples. It checks the size before it
+// allocates memory in proportion to it.
 struct PictureFormat {
   const char* codec = "";
   std::optional<FilePicture> (*read)(std::span<const std::uint8_t> file) = nullptr;
 };
 
-// FilePicture::whole_bits of samples that the file holds as `type`: whole numbers that fit into codes are codes.
+// Returns FilePicture::whole_bits for samples that the file stores as `type`: whole numbers that fit into codes are
+// used as codes.
 [[nodiscard]] int wholeBits(const NumberType& type, std::span<const float> samples) noexcept;
 
 // True for a size that a reader may allocate.
 [[nodiscard]] bool isSoundSize(std::uint64_t width, std::uint64_t height) noexcept;
 
-// One component, or three that are equal throughout the first picture, become 16-bit gray codes by one scale for the
-// whole film (hal/media/float_codes.h); Frame::value_per_code says it. Whole numbers that fit become codes as they are,
-// those of 8 bits stretched to 16. Other colours become 16-bit RGB, floating-point ones as light that is encoded for a
-// screen.
+// One component, or three that are equal throughout the first picture, become 16-bit gray codes on one scale for the
+// whole film (hal/media/float_codes.h), which Frame::value_per_code states. Whole numbers that fit become codes
+// unchanged, those of 8 bits stretched to 16. Other colours become 16-bit RGB; floating-point ones are taken as linear
+// light and encoded for a screen.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makePictureFileDecoder(PictureFormat format);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenNI's packing of depth, "16z": steps from one sample to the next, row by row.
+// OpenNI's depth compression "16z": the difference of each sample to the one before, row by row.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace relievo::openni {
 
-// A step of -6 to 6 takes half a byte, one of -63 to 63 a byte, a new value two; twice no step is repeated up to 15
-// times by one byte. False unless `packed` holds exactly as many samples as `samples` takes.
+// A difference of -6 to 6 takes half a byte, one of -63 to 63 a byte, a new value two bytes; one byte repeats two zero
+// differences up to 15 times. False unless `packed` holds exactly as many samples as `samples` takes.
 [[nodiscard]] bool unpack16z(std::span<const std::uint8_t> packed, std::span<std::uint16_t> samples) noexcept;
 
-// The same for places in a table of all values of the picture, which comes first.
+// The same with indices into a table of the picture's values, which `packed` begins with.
 [[nodiscard]] bool unpack16zTable(std::span<const std::uint8_t> packed, std::span<std::uint16_t> samples) noexcept;
 
 }  // namespace relievo::openni

@@ -31,8 +31,8 @@ struct Node {
   std::vector<PicturePlace> pictures;  // in the file's order
 };
 
-// All nodes of pictures, those without any included. A recording that was cut off ends where its last whole record
-// ends. Cancelled soon after the flag is set.
+// All nodes with pictures, including those that hold none. A recording that was cut off ends with its last whole
+// record. Cancelled soon after the flag is set.
 [[nodiscard]] Result<std::vector<Node>> findNodes(const RecordFile& file, const std::atomic<bool>& cancelled);
 
 }  // namespace relievo::openni

@@ -18,8 +18,8 @@ namespace relievo::pictures {
 // "d-1294886362.665769-3143787185.pgm": NYU's raw depth.
 [[nodiscard]] bool isNyuDepth(const std::string& path);
 
-// A PGM of 16 bits holds its high bytes first; NYU's files hold the low ones first. Swaps them if only then all codes
-// are those of a Kinect, at most 2047.
+// PGM stores the high byte of 16-bit samples first; NYU's files store the low byte first. Swaps the bytes if only then
+// all codes are a Kinect's, at most 2047.
 void mendByteOrder(std::vector<std::uint8_t>& pgm);
 
 }  // namespace relievo::pictures

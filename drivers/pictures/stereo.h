@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two views of one scene, and what is known of the left one's depth, by the names that data sets give them.
+// Recognises two views of one scene, and the depth of the left one, by the names that data sets use.
 #pragma once
 
 #include <optional>

@@ -43,7 +43,7 @@ class Converter {
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
   // Frame::value_per_code of the last converted picture.
   [[nodiscard]] double valuePerCode() const noexcept { return codes_ ? codes_->valuePerCode() : 0; }
-  // For another film.
+  // Call for another film: its first floating-point picture sets a new scale.
   void forgetScale() noexcept { codes_.reset(); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells an HEVC stream that holds two views, each in a layer of its own (MV-HEVC; ITU-T H.265, annex G).
+// Recognises an HEVC stream that holds two views, each in a layer of its own (MV-HEVC; ITU-T H.265, annex G).
 #pragma once
 
 extern "C" {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts the two views of a moment together, which FFmpeg's decoder of MV-HEVC returns as two pictures.
+// Pairs the two views of a moment, which FFmpeg's decoder of MV-HEVC returns as two pictures.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ class ViewPairs {
   // A picture with one view is whole at once. The base view waits for the picture after it, which is its second view
   // or, if that is missing, another moment's. A second view whose base was lost or left out is dropped.
   [[nodiscard]] Moment add(FramePtr picture);
-  // What still waits at the end.
+  // At the end: the picture that still waits for a second view.
   [[nodiscard]] Moment rest();
   // For a seek.
   void dropWaiting() noexcept { waiting_.reset(); }
