@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings the levels that the tick wants into the device, on a thread of its own, since an upload may wait.
+// Uploads force-feedback effects to the device on a separate thread, since an upload may block.
 #pragma once
 
 #include <array>
@@ -24,13 +24,13 @@ class EffectPlayer final : private CyclicTask {
 
   EffectPlayer(PadPort& port, Clock& clock) : port_(port), clock_(clock), thread_(clock) {}
 
-  // Makes the effects, silent. Without a thread of its own it sends in `want` and `check`. Exhausted, Lost, and what
-  // the device answers.
+  // Creates the effects at level zero. Without a thread of its own, `want` and `check` send them. Errors: Exhausted,
+  // Lost, and the device's own.
   [[nodiscard]] Result<void> start(const PadMotors& motors, bool own_thread);
   // Stops and erases every effect.
   void stop() noexcept;
 
-  // `contact_since`: the time of the first force of this contact; only looked at if `contact`.
+  // Sets the levels to play. `contact_since`: the time of this contact's first force; read only if `contact`.
   void want(const PadLevels& levels, bool contact, MonotonicTime contact_since, MonotonicTime now) RELIEVO_RT;
   // Once a tick, also without a force. Lost.
   [[nodiscard]] Result<void> check(MonotonicTime now) RELIEVO_RT;
@@ -70,7 +70,7 @@ class EffectPlayer final : private CyclicTask {
   Slot<RumbleLevel> rumble_;
   Slot<ConstantLevel> constant_;
   Slot<SpringLevel> spring_;
-  MonotonicTime told_contact_;  // whose delay is counted
+  MonotonicTime told_contact_;  // start of the contact whose delay was counted last
   Histogram contact_delays_;
   CyclicThread thread_;
 };

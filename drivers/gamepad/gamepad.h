@@ -16,21 +16,21 @@ struct GamepadConfig {
   bool effect_thread = true;  // false: effects are sent in the tick, for simulated time
 };
 
-// What it does follows from what the kernel says of the device. Without motors on its stick (a gamepad) the stick moves
-// the finger, at up to 100 mm/s, and rumble tells what it feels (see pad_effects.h). With them (a joystick, a wheel)
-// the stick is where the finger is, and pushes with the force along its axes; the rest of the force is in the rumble,
-// if there is one. A trigger or a pedal presses: how far it is pulled is how deep the finger wants to go, against the
+// Behaviour follows from what the kernel reports of the device. Without motors on its stick (a gamepad), the stick
+// moves the finger, at up to 100 mm/s, and rumble signals the force (see pad_effects.h). With them (a joystick, a
+// wheel), the stick's position is the finger's, and the motors push along its axes; the rest of the force goes to the
+// rumble, if there is one. A trigger or a pedal presses: its travel sets how deep the finger wants to go, against the
 // surface (see pad_finger.h). The first button is the device's main one (bit 0), the second its clutch (bit 1).
 //
-// An upload of an effect may wait for the device, so that a thread of its own does it, every 4 ms. It stops all effects
-// when no force comes for 20 ms. A wheel's own centring is off while it runs; since the kernel cannot tell how strong
-// it was, it is set to full strength at the end.
+// Uploading an effect may block, so a thread of its own does it, every 4 ms. It stops all effects when no force comes
+// for 20 ms. A wheel's own centring is off while the device runs; since the kernel cannot report its previous strength,
+// it is set to full strength at the end.
 [[nodiscard]] std::unique_ptr<HapticDevice> makeGamepad(std::unique_ptr<PadPort> port, Clock& clock,
                                                         const GamepadConfig& config = {});
 // `path`: see makeEvdevPadPort.
 [[nodiscard]] std::unique_ptr<HapticDevice> makeGamepad(std::string path, Clock& clock);
 
-// Each device that could be one, and what it can do; or why none can be used, with an empty path.
+// Each device that could be used, and what it can do; or why none can be used, with an empty path.
 struct PadSeen {
   std::string path;
   bool there = false;

@@ -11,10 +11,10 @@
 
 namespace relievo {
 
-// The stick is ABS_X and ABS_Y. A wheel has only ABS_X, which is told by ABS_Y having another range: there it is a
-// pedal, and the hat moves the finger up and down. Triggers and pedals are ABS_GAS and ABS_BRAKE; ABS_Z and ABS_RZ, if
-// there is a second stick at ABS_RX and ABS_RY or if it is a wheel. A wheel's pedals may stand at their upper end when
-// nobody presses; the first position that each tells shows that. Without any, a key presses.
+// The stick is ABS_X and ABS_Y. A wheel is recognised by an ABS_Y whose range differs from that of ABS_X: there ABS_Y
+// is a pedal, and the hat moves the finger up and down. Triggers and pedals are ABS_GAS and ABS_BRAKE; also ABS_Z and
+// ABS_RZ, on a wheel or if there is a second stick at ABS_RX and ABS_RY. A wheel's pedals may rest at their upper end;
+// the first position that each reports shows which. Without triggers and pedals, a key presses.
 class PadControls {
  public:
   PadControls() = default;
@@ -23,10 +23,10 @@ class PadControls {
   [[nodiscard]] bool isWheel() const noexcept { return wheel_; }
 
   void take(const input_event& event) RELIEVO_RT;
-  // After lost events: the state as the kernel has it.
+  // Call after lost events, with the kernel's state of the keys.
   void setKeys(const InputKeys& down) RELIEVO_RT { down_ = down; }
   void setAxis(unsigned code, std::int32_t value) RELIEVO_RT;
-  // The axes that matter, to be asked for after lost events.
+  // The axes whose state to ask for after lost events.
   [[nodiscard]] bool uses(unsigned code) const RELIEVO_RT;
 
   [[nodiscard]] glm::dvec2 stick() const RELIEVO_RT;  // from -1 to 1, x right, y up
@@ -38,7 +38,7 @@ class PadControls {
     unsigned code = ABS_CNT;  // none
     double low = 0, high = 1;
     double value = 0;
-    bool heard = false;                             // its rest is known
+    bool heard = false;                             // a position has been reported, so the rest position is known
     bool inverted = false;                          // rests at its upper end
     [[nodiscard]] double share() const RELIEVO_RT;  // 0 at the low end, 1 at the high one
   };

@@ -41,7 +41,7 @@ struct PadLevels {
   bool operator==(const PadLevels&) const = default;
 };
 
-// What there is to push with.
+// The motors that a device has.
 struct PadMotors {
   bool rumble = false, constant = false, spring = false;
   int axes = 0;  // that constant force and spring act on: 1 (a wheel) or 2; 0 without either
@@ -54,13 +54,13 @@ inline constexpr std::uint16_t kEffectMs = 1000;
 [[nodiscard]] ff_effect effectOf(const SpringLevel& level) noexcept;
 
 // The force as a fraction of the peak is split in two. Along the axes that have motors, a spring pushes with the whole
-// fraction where the stick is, and holds on by itself between two uploads: its centre lies ahead by the fraction, in
-// units of half the stick's way. It pushes on one side of the centre only, so that a surface does not stick. What it
-// cannot reach, or all of it without a spring, is constant force.
+// fraction at the stick's present position, and keeps pushing by itself between two uploads: its centre lies ahead of
+// the stick by the fraction, in units of half the stick's travel. It pushes on one side of the centre only, so that a
+// surface does not stick. Constant force supplies what the spring cannot reach, or all of it without a spring.
 //
-// The rest, r, rumbles. The strong motor tells how hard: |r|. The weak motor tells slope and texture: |r| times the
-// sine of the slope's angle, plus the root mean square of the force's changes within about 50 ms, of kRoughN; and for
-// 40 ms a contact, however soft.
+// The rest, r, goes to the rumble. The strong motor shows how hard the contact is: |r|. The weak motor shows slope and
+// texture: |r| times the sine of the slope's angle, plus the root mean square of the force's changes within about 50
+// ms, in units of kRoughN. For the first 40 ms it also shows a contact, however soft.
 class PadEffects {
  public:
   static constexpr double kPeakN = 4;
@@ -71,7 +71,7 @@ class PadEffects {
   PadEffects() = default;
   explicit PadEffects(const PadMotors& motors) noexcept : motors_(motors) {}
 
-  // Call once a tick: the force on the hand, N, device frame; where the stick is, from -1 to 1, x right, y up; time
+  // Call once a tick. `force_n`: on the hand, N, device frame. `stick`: from -1 to 1, x right, y up. Then the time
   // since the last call.
   [[nodiscard]] PadLevels follow(const glm::dvec3& force_n, const glm::dvec2& stick, double elapsed_s) RELIEVO_RT;
   // Whether the force of the last call is a contact.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The finger that stick and trigger move: pure arithmetic.
+// The finger that stick and trigger move. Pure arithmetic.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -9,12 +9,13 @@
 
 namespace relievo {
 
-// In the picture plane, an axis with a motor is where its stick is; one without goes at the stick's speed, slower the
-// stronger the force against it, and stops at 2 N: a wall that only rumbles can then not be pushed through.
+// In the picture plane, the finger is at the stick's position along an axis with a motor. Along one without, it moves
+// at the stick's speed, slower the stronger the force against it, and stops at 2 N, since a wall that only rumbles
+// could otherwise be pushed through.
 //
-// In depth the finger wants to be at the depth that the trigger says, and hangs on a spring of 0.1 N/mm that pulls it
-// there: over a surface it goes there, on a surface it presses with 0.1 N for each millimetre that the trigger is
-// deeper, up to about 3 N. Its motion is damped, and at most 200 mm/s fast.
+// In depth, a spring of 0.1 N/mm pulls the finger to the depth that the trigger sets: over a surface it arrives there,
+// on a surface it presses with 0.1 N for each millimetre that the trigger is deeper, up to about 3 N. Its motion is
+// damped and limited to 200 mm/s.
 class PadFinger {
  public:
   static constexpr glm::dvec3 kMinMm{-100, -75, -20}, kMaxMm{100, 75, 60};

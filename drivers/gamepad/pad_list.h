@@ -13,7 +13,7 @@ class PadListing {
   ~PadListing() { remove(); }
   PadListing(const PadListing&) = delete;
   PadListing& operator=(const PadListing&) = delete;
-  // `centring`: it has a centring of its own, to be set to full strength in the end.
+  // `centring`: the device has a centring of its own, which is set to full strength at the end.
   void put(int fd, bool centring) noexcept;
   void remove() noexcept;
 

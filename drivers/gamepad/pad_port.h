@@ -32,7 +32,7 @@ struct InputCodes {
 };
 using InputKeys = InputCodes<KEY_CNT>;
 
-// What a device says of itself.
+// What a device reports about itself.
 struct PadFacts {
   std::string name;
   InputKeys keys;
@@ -51,7 +51,7 @@ class PadPort {
 
   // NotFound, PermissionDenied; Unsupported if it has no stick or no force feedback.
   [[nodiscard]] virtual Result<PadFacts> open() = 0;
-  // The kernel erases what effects are left.
+  // The kernel then erases the remaining effects.
   virtual void close() noexcept = 0;
 
   // Reads the oldest pending events and returns their number, or 0.

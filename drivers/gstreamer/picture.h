@@ -18,8 +18,8 @@ namespace relievo::gstreamer {
 // How many buffers of an element's own pool are held by frames now.
 using HeldCount = std::shared_ptr<std::atomic<int>>;
 
-// Without times. The stream's colour signalling holds, as the container and FFmpeg read it. With `copied`, the samples
-// are copied and the buffer is free again. Unsupported if its layout is not readable.
+// The frame has no times. The stream's colour signalling is used, as the container and FFmpeg read it. With `copied`,
+// the samples are copied and the buffer is free again. Unsupported if its layout is not readable.
 [[nodiscard]] Result<Frame> frameOf(GstSample& sample, const StreamInfo& stream, const HeldCount& held, bool copied);
 
 }  // namespace relievo::gstreamer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One decoding element between an entrance for packets and an exit for pictures. Its threads are GStreamer's own; no
-// call here waits for an element that hangs.
+// One decoding element with an input for packets and an output for pictures. Its threads are GStreamer's own; no call
+// here waits for an element that hangs.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace relievo::gstreamer {
 
-// What an element is asked to have besides its own need, so that its reader may hold pictures.
+// Buffers that an element is asked for in addition to its own need, so that its reader may hold pictures.
 inline constexpr int kPicturesWaiting = 4, kPicturesHeld = 8;
 
 class Pipeline {
@@ -35,9 +35,9 @@ class Pipeline {
   [[nodiscard]] std::size_t waiting() const;
   // The first failure since the start.
   [[nodiscard]] std::optional<Error> failure();
-  // Nothing but destruction is left then. False if the element hangs.
+  // Afterwards only destruction is allowed. False if the element hangs.
   bool stop();
-  // The element hangs: nothing waits for it any more.
+  // Call if the element hangs: destruction then does not wait for it.
   void abandon() noexcept { hangs_ = true; }
 
  private:

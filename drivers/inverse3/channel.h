@@ -21,8 +21,8 @@ namespace relievo::inverse3 {
 // without waiting or allocating; `quieten` on any thread.
 class Channel final : public ForcePort {
  public:
-  // So many messages may wait for their answers. With one, a service slower than the ticks does not fall behind, and an
-  // answer too many or too few shifts the ages by one exchange.
+  // At most this many messages wait for an answer. With one, a service slower than the ticks cannot fall behind, and a
+  // surplus or missing answer shifts the ages by only one exchange.
   static constexpr std::uint32_t kMostWaiting = 1;
 
   Channel(std::unique_ptr<Wire> wire, std::string host, Clock& clock)
@@ -53,7 +53,7 @@ class Channel final : public ForcePort {
 
   [[nodiscard]] Result<void> upgrade(const std::atomic<bool>& cancelled);
   [[nodiscard]] Result<std::string> answerTo(const std::string& request, const std::atomic<bool>& cancelled);
-  // These three are for who holds `turn_`. `put` is false if an earlier frame is not yet gone.
+  // Call these three only while holding `turn_`. `put` returns false if an earlier frame is not sent yet.
   [[nodiscard]] Result<bool> put(Opcode kind, std::string_view payload) RELIEVO_RT;
   [[nodiscard]] Result<bool> putText(PortBytes text, bool quiet) RELIEVO_RT;
   [[nodiscard]] Result<bool> flush() RELIEVO_RT;
@@ -68,7 +68,7 @@ class Channel final : public ForcePort {
   bool ended_ = false;  // the service said so
   std::uint32_t answered_ = 0;
 
-  std::atomic<bool> turn_{false};  // taken by who sends; guards what follows
+  std::atomic<bool> turn_{false};  // taken by the sending thread; guards the members below
   std::array<char, 1024> outbox_{};
   std::size_t out_begin_ = 0, out_end_ = 0;
   std::uint64_t random_ = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is sent to the Haply Inverse service.
+// The messages to the Haply Inverse service.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace relievo::inverse3 {
 // workspace.
 [[nodiscard]] std::string helloMessage(std::string_view device);
 
-// The message that carries a force, once a tick; in memory of its own.
+// The message that carries a force, once a tick. It owns its memory.
 class ForceMessage {
  public:
   // From 3.5 on the force is a "vector", before it was "values".
@@ -29,7 +29,7 @@ class ForceMessage {
   void add(double newtons) RELIEVO_RT;
 
   std::array<char, 256> text_{};
-  std::size_t head_ = 0;  // that is the same in every message
+  std::size_t head_ = 0;  // length of the part that is the same in every message
   std::size_t size_ = 0;
 };
 

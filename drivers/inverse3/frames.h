@@ -26,7 +26,7 @@ class FrameReader {
   static constexpr std::size_t kMostMessage = 32 * 1024;
 
   void clear() RELIEVO_RT;
-  // Where the next bytes go; never empty. What `next` returned ends here.
+  // The memory for the next bytes; never empty. What `next` returned becomes invalid.
   [[nodiscard]] std::span<char> room() RELIEVO_RT;
   void received(std::size_t bytes) RELIEVO_RT { end_ += bytes; }
   // The next message, valid until the next call of `room` or `next`; empty until it has arrived whole.
@@ -48,7 +48,7 @@ class FrameReader {
   std::size_t begin_ = 0, end_ = 0;  // of what has arrived and was not returned
   std::array<char, kMostMessage> pieces_{};
   std::size_t pieced_ = 0;
-  std::optional<Opcode> piecing_;  // the kind of the message whose pieces arrive
+  std::optional<Opcode> piecing_;  // kind of the fragmented message that is arriving
   bool broken_ = false;
 };
 

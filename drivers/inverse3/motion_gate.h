@@ -20,7 +20,7 @@ class MotionGate {
   static constexpr double kNoiseMm = 0.05;
   static constexpr int kConfirmations = 4;
 
-  // The next position must be confirmed.
+  // After this, the next position must be confirmed.
   void forget() RELIEVO_RT {
     known_ = false;
     doubts_ = 0;
@@ -45,7 +45,7 @@ class MotionGate {
 
  private:
   static constexpr double kLongestMs = 20;    // of an extrapolation
-  static constexpr double kShortestMs = 0.2;  // that tells a velocity
+  static constexpr double kShortestMs = 0.2;  // shortest interval from which a velocity can be computed
   static constexpr double kFastestMmPerMs = 5;
 
   struct Place {

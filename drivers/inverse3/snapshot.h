@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is needed of a message from the Haply Inverse service: where the handle is, its buttons, the device's state.
+// Parses the needed parts of a message from the Haply Inverse service: handle position, buttons, device state.
 #pragma once
 
 #include <array>
