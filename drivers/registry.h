@@ -60,7 +60,7 @@ struct NamedFiles {
 // stream, a stateful V4L2 device before GStreamer's elements, and falls back to software if that fails.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream);
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeVideoDecoder(const StreamInfo& stream);
-// What makes decoders of that name ("gstreamer:ELEMENT"), with software behind them; makeVideoDecoder if none is named.
+// Makes decoders of that name ("gstreamer:ELEMENT"), with software to fall back to; makeVideoDecoder if none is named.
 using DecoderMaker = std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)>;
 [[nodiscard]] Outcome<DecoderMaker> decoderMaker(const BackEndName& name);
 [[nodiscard]] std::unique_ptr<AudioDecoder> makeAudioDecoder();
@@ -73,7 +73,7 @@ using DecoderMaker = std::function<std::unique_ptr<VideoDecoder>(const StreamInf
 // a list of the faults, for an unknown one; InvalidState if the device is no mock.
 [[nodiscard]] Result<void> switchFault(std::string_view device, std::string_view fault);
 
-// What an option that is not given can take; nothing is opened but the desktop's connection.
+// What this machine offers for options that are not given; opens nothing but the connection to the desktop.
 [[nodiscard]] bool desktopIsThere();
 [[nodiscard]] bool screenIsThere();
 [[nodiscard]] std::string pluggedHaptic();  // "falcon", "polhem"; empty without one

@@ -90,7 +90,7 @@ struct MockDecoderProfile {
   std::size_t queue_packets = 4;  // packets accepted and not yet received; beyond that Full
   int reorder_frames = 0;         // pictures that it holds back until more packets come
   int max_held_frames = 8;        // it makes no further picture while this many are held
-  int referenced_every = 1;       // pictures whose number is no multiple of it are referred to by no other
+  int referenced_every = 1;       // only pictures whose number is a multiple of it are referred to by others
 
   // Faults.
   std::uint64_t lose_after_packets = kNever;  // feed answers Lost until closed

@@ -29,7 +29,7 @@ class MousePort {
   virtual void close() noexcept = 0;
   // The greatest distance from the middle that it can point at, horizontally and vertically. Known from `open` on.
   [[nodiscard]] virtual glm::dvec2 reachMm() const noexcept { return {100, 75}; }
-  // A mouse over a picture points along a line of sight, instead of telling how far it has moved.
+  // A mouse over a picture points along a line of sight; any other reports how far it has moved.
   [[nodiscard]] virtual bool overPicture() const noexcept { return false; }
   // That line, as of the last `take`; null if it points at nothing yet.
   [[nodiscard]] virtual const SceneRay* ray() const RELIEVO_RT { return nullptr; }

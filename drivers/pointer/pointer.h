@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mouse as a stand-in for a haptic device: it points, presses and shows what would be felt.
+// A mouse in place of a haptic device: it points, presses and shows what would be felt.
 #pragma once
 
 #include <memory>

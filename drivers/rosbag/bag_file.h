@@ -36,7 +36,7 @@ class BagFile {
   // The content of a chunk; the last one unpacked is kept. A chunk that cannot be unpacked is empty; so are all, once
   // kMostSearched bytes have been unpacked, until `endSearch`.
   [[nodiscard]] const Range& content(std::uint32_t chunk);
-  // What the film is has been found out.
+  // Call when the film's streams have been found.
   void endSearch() noexcept {
     budget_ = ~std::uint64_t{0};
     unpacked_chunk_.reset();

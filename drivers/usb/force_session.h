@@ -26,7 +26,7 @@ class ForceSession {
   // Sends zero force and stops the exchange. Does nothing if none is running.
   void end() noexcept;
 
-  // Call once a tick, after reading what has arrived. `known`: whether the hand's position is. Lost after 100 ms
+  // Call once a tick, after reading what has arrived. `known`: whether the hand's position is known. Lost after 100 ms
   // without an answer.
   [[nodiscard]] Result<void> listened(bool answered, bool known = true) RELIEVO_RT;
 

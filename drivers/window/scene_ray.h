@@ -18,7 +18,7 @@ struct SceneRay {
   double viewing_distance_mm = 1;
   double depth_mm = 0;  // of the display volume
 
-  // Where the line is at the height `z_mm`.
+  // The point of the ray at the height `z_mm`.
   [[nodiscard]] glm::dvec2 at(double z_mm) const RELIEVO_RT {
     const glm::dvec2 eye(eye_x_mm, 0);
     return eye + (1 - (z_mm - screen_z_mm) / viewing_distance_mm) * (screen_mm - eye);
