@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where each place of a film's picture was in an earlier one: a map painted over that one stays on its things.
+// Tracks each place of a film's picture back to an earlier picture, so that a map painted over that picture stays on
+// the objects that it covers.
 #pragma once
 
 #include <optional>
@@ -9,18 +10,18 @@
 
 namespace relievo {
 
-// Follows from picture to picture, so a small error grows with their number. What comes into the picture from outside,
-// from behind a thing or after a cut, was nowhere.
+// Tracks from picture to picture, so a small error grows with their number. A place that has come into the picture from
+// outside, from behind an object or after a cut has no earlier position.
 class MapFollower {
  public:
-  // A place of the picture that was painted over, in samples; x below 0: the place was not in it.
+  // A position in the painted picture, in samples; x below 0: the place was not in that picture.
   using Place = Motion;
 
   // The next picture; all of one size.
   void add(GrayPicture picture);
-  // The last picture is the one that was painted over; before the first call it is the first one.
+  // Makes the last added picture the painted one. Before the first call it is the first picture.
   void begin();
-  // Nothing of the picture that was painted over is left.
+  // Call at a cut: no place of the painted picture is left.
   void cut();
 
   // Row by row.

@@ -19,12 +19,11 @@
 
 namespace relievo {
 
-// What is painted over a picture of the film stays on the things that it was painted on, until the shot ends, they
-// leave the picture, or the next painting begins. A film of maps is taken as it is, by its times; its last picture
-// holds.
+// A painting stays on the objects that it covers until the shot ends, they leave the picture, or the next painting
+// begins. A film of maps is used as it is, by its times; its last picture holds.
 class MaterialTrack {
  public:
-  // What full codes stand for if the words do not say it.
+  // Values of full codes that the user's words do not state.
   static constexpr Material kFull{
       .stiffness_n_per_mm = 1, .friction = Friction{0.6, 0.5}, .texture = Texture{0.2, 0.8}};
   // Wider ones are scaled down: a map is as fine as a finger feels.
@@ -37,18 +36,18 @@ class MaterialTrack {
 
   [[nodiscard]] int cols() const noexcept { return cols_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  // What full codes stand for, for the parts that the maps have: gray maps have stiffness alone.
+  // The values of full codes, for the parts that the maps have: gray maps have stiffness alone.
   [[nodiscard]] const Material& scale() const noexcept { return scale_; }
 
   // The next picture of the film; `begins_shot`: nothing in it continues the one before. The result is valid until the
   // next call.
   [[nodiscard]] Result<const ColorPicture420*> at(const ColorPicture420& color, MediaTime time, bool begins_shot);
-  // For the author: the cuts after which nothing is painted, and the paintings that come after the film's end.
+  // For the author: the cuts after which nothing is painted, and the paintings that begin after the film's end.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   MaterialTrack() = default;
-  // Adds to what is coming; the colour model of its picture.
+  // Appends the painting to `coming_`. Returns the colour model of its picture.
   [[nodiscard]] Result<ColorModel> read(const Painting& painting, bool alone, const PairReader::Backends& backends);
   [[nodiscard]] Result<void> passTo(MediaTime time);
   [[nodiscard]] bool beginPainting(MediaTime time);
@@ -59,12 +58,12 @@ class MaterialTrack {
 
   int cols_ = 0, rows_ = 0;
   Material scale_;
-  PaintedMap map_;                                      // the present one
-  std::deque<std::pair<Painting, PaintedMap>> coming_;  // those that have not begun
+  PaintedMap map_;                                      // the painting that applies now
+  std::deque<std::pair<Painting, PaintedMap>> coming_;  // paintings that have not begun
   std::unique_ptr<TrackReader> reader_;                 // of a film of maps
   std::optional<Frame> next_;
   MapFollower follower_;
-  bool has_begun_ = false;          // the first painting
+  bool has_begun_ = false;          // the first painting has begun
   std::vector<MediaTime> ends_at_;  // cuts without a painting
   ColorPicture420 picture_;
 };

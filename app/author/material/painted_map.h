@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture that a person has painted: red is stiffness, green friction, blue texture; gray is stiffness alone.
+// A picture painted by a person: red is stiffness, green friction, blue texture; gray is stiffness alone.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Shares of the full codes, 0 to 255, row by row. Where the picture is transparent nothing is painted.
+// Shares of the full codes, 0 to 255, row by row. Where the picture is transparent, nothing is painted.
 struct PaintedMap {
   using Codes = std::array<std::uint8_t, 3>;  // stiffness, friction, texture
   int cols = 0, rows = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which files say what the places of a film feel like, and from when on.
+// The files that hold a film's painted material maps, and the time from which each applies.
 #pragma once
 
 #include <string>

@@ -56,9 +56,9 @@ struct FilmTotals {
 // A material track, if there is one, is track 2: H.264 4:2:0, full range, titled "material", its tag in the same
 // places. After them come the kept tracks, if there are any.
 //
-// Each track is encoded on a thread of its own, a few pictures later: a failure is told by a later call of the same
-// track, at the latest by `finish`. Use from one thread, except that `writeDepth` may be called from another one. A
-// file is written under a temporary name beside the target and renamed by `finish`; without that nothing is left. A
+// Each track is encoded on a thread of its own, a few pictures behind: a failure is reported by a later call for the
+// same track, at the latest by `finish`. Use from one thread, except that `writeDepth` may be called from another one.
+// A file is written under a temporary name beside the target and renamed by `finish`; without that nothing is left. A
 // network stream is sent in real time: writing blocks. Timestamps of a track must increase.
 class FilmWriter {
  public:

@@ -26,8 +26,8 @@ struct KeptWishes {
   bool subtitles = true;
 };
 
-// Reads the colour's file a second time, without its pictures. Text subtitles are converted if the film's container has
-// another form of text; what it cannot hold is left out, and said. Use from one thread.
+// Reads the colour's file a second time, without its pictures. Text subtitles are converted if the film's container
+// needs another format; what it cannot hold is left out and reported. Use from one thread.
 class KeptTracks {
  public:
   // `start`: the time of the file that is media time 0. NotFound, Corrupt; Timeout and Cancelled as
@@ -70,7 +70,7 @@ class KeptTracks {
   [[nodiscard]] MediaTime begins(const AVPacket& packet) const noexcept;
   [[nodiscard]] Result<void> write(PacketPtr packet);
 
-  // The state of the file is shared with questions to the file system that are not answered.
+  // Shared with file system calls that have not returned yet and may outlive this object.
   struct Opened {
     std::shared_ptr<AVFormatContext> file;
     int code = 0;

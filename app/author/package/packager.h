@@ -22,19 +22,19 @@
 
 namespace relievo {
 
-// How many pictures the film has, if it says so.
+// The number of pictures of the film, if it states it.
 [[nodiscard]] std::optional<std::uint64_t> expectedFrames(const FilmInfo& info);
 
-// Everything between the reader and the writer. Pairs are written on the caller's thread, the depth is enhanced on one
-// of its own, and each encoder has one (see FilmWriter). What it is given by reference outlives it.
+// Connects the reader to the writer. Pairs are written on the caller's thread, the depth is enhanced on a thread of its
+// own, and so is each encoder (see FilmWriter). Arguments passed by reference must outlive it.
 class Packager {
  public:
-  // `info` is the film's as it is read here: with depth, be it the film's own or made.
+  // `info` describes the film as it is read here: with depth, either the film's own or estimated.
   Packager(PairReader& reader, const PairReader::Backends& backends, FilmInfo info, const SourceOptions& source,
            const OutputOptions& output)
       : reader_(reader), backends_(backends), info_(std::move(info)), source_(source), output_(output) {}
 
-  // Before the first `write`, with the pair that is written first.
+  // Call before the first `write`, with the pair that is written first.
   [[nodiscard]] Outcome<void> begin(const FramePair& pair);
   [[nodiscard]] Outcome<void> write(const FramePair& pair);
   [[nodiscard]] Outcome<AuthorSummary> finish();

@@ -17,7 +17,7 @@ namespace relievo {
                                                    const PairCounters& counters, const FilmFormat& format,
                                                    const DepthCoder::Counts& codes);
 
-// Notes for a source whose sound and subtitles cannot be kept, although they are wished for.
+// Notes for a source whose sound and subtitles were to be kept but cannot be.
 [[nodiscard]] std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep);
 
 }  // namespace relievo

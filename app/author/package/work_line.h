@@ -12,20 +12,20 @@
 
 namespace relievo {
 
-// `Answer` is an std::expected<void, ..>. Few jobs wait: `add` blocks while the line is full, so that fast stages do
-// not fill the memory with pictures. After the first failure no job is done any more. `add` and `finish` from one
-// thread. Destroying it abandons the jobs that wait and lets the present one end.
+// `Answer` is an std::expected<void, ..>. The queue is short: `add` blocks while it is full, so that fast stages do not
+// fill the memory with pictures. After the first failure no further job runs. Call `add` and `finish` from one thread.
+// The destructor drops the waiting jobs and waits for the present one.
 template <class Answer>
 class WorkLine {
  public:
   using Job = std::move_only_function<Answer()>;
   static constexpr std::size_t kWaiting = 1;
-  // How many buffers the owner needs: for the jobs that wait, for the present one, and for the next.
+  // How many buffers the owner needs: for the waiting jobs, for the present one, and for the next.
   static constexpr std::size_t kBuffers = kWaiting + 2;
 
   WorkLine() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-  // The failure of an earlier job, if one has failed; the new one is then not taken.
+  // Queues a job. After a failure of an earlier job, returns that failure and takes no job.
   [[nodiscard]] Answer add(Job job) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return !answer_ || jobs_.size() < kWaiting; });
@@ -62,7 +62,7 @@ class WorkLine {
 
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::deque<Job> jobs_;  // that wait
+  std::deque<Job> jobs_;  // waiting
   bool busy_ = false;
   Answer answer_;        // the first failure
   std::jthread thread_;  // the last member: it ends before the others

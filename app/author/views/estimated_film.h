@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of one view as one of colour and depth: the depth is guessed by a command or a network, and made steady.
+// Turns a film of one view into one of colour and depth: a command or a network estimates the depth, which is then made
+// steady over time.
 #pragma once
 
 #include <atomic>
@@ -35,15 +36,15 @@ class EstimatedFilm {
 
   // The next pair with its depth; nullopt after the last one. Starts the estimator at the first.
   [[nodiscard]] Outcome<std::optional<FramePair>> next(PairReader& reader);
-  // What the film is, its depth being there.
+  // Describes the film with its estimated depth.
   [[nodiscard]] static FilmInfo described(FilmInfo info, const FramePair& first);
-  // What was done, once all pairs have been taken; one line each.
+  // What was done, one line each. Call once all pairs have been taken.
   [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   struct Waiting {
     FramePair pair;
-    RawPicture picture;  // for the motion
+    RawPicture picture;  // for the motion estimation
   };
 
   EstimatedFilm(OneViewWishes wishes, const std::atomic<bool>& stop) : wishes_(std::move(wishes)), stop_(&stop) {}
@@ -55,7 +56,7 @@ class EstimatedFilm {
   const std::atomic<bool>* stop_;
   std::unique_ptr<DepthEstimator> estimator_;
   DepthSize color_;
-  std::deque<Waiting> waiting_;  // given to the estimator, not answered
+  std::deque<Waiting> waiting_;  // given to the estimator, not answered yet
   SteadyRelief relief_;
   bool at_end_ = false;
 };

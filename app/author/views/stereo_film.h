@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of two views as one of colour and depth: the left view, and depth made from both.
+// Turns a film of two views into one of colour and depth: the left view, and depth matched from both.
 #pragma once
 
 #include <atomic>
@@ -21,15 +21,15 @@ class StereoFilm {
  public:
   using Progress = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
 
-  // Reads the whole film once, or twice if the eyes turn out to be swapped. Fails on a source that cannot be read
-  // again, on a film that is not one of two views, and on views that hold no depth; Cancelled when `stop` is set.
+  // Reads the whole film once, or twice if the eyes turn out to be swapped. Fails if the source cannot be read again,
+  // if the film does not consist of two views, or if they hold no depth; Cancelled when `stop` is set.
   [[nodiscard]] static Outcome<StereoFilm> survey(const SourceOptions& source, const PairReader::Backends& backends,
                                                   SwapEyes swap, const std::atomic<bool>& stop,
                                                   const Progress& progress);
 
-  // The source with its layout told, to be opened for `withDepth`.
+  // The source with its stereo layout filled in: open this one for `withDepth`.
   [[nodiscard]] const SourceOptions& source() const noexcept { return source_; }
-  // What the film is, its depth being there.
+  // Describes the film with the depth made from its views.
   [[nodiscard]] FilmInfo described(FilmInfo info) const;
   // The left view and its depth, in place of the two views.
   [[nodiscard]] Result<FramePair> withDepth(FramePair views) const;

@@ -51,9 +51,9 @@ class FilmPlace {
   [[nodiscard]] Result<void> writeHeader(AVDictionary* options);
   // What went wrong when FFmpeg failed with this code.
   [[nodiscard]] Error failureOf(int code);
-  // The error of the file that is written; nullopt without an error, or if it is no file.
+  // The error of the file being written; nullopt if there is none, or if the film is not a file.
   [[nodiscard]] virtual std::optional<Error> fileError() { return std::nullopt; }
-  // What a failure without a reason of the file's means.
+  // The message for a failure for which the file gives no reason.
   [[nodiscard]] virtual const char* usualFailure() const noexcept { return kCannotWrite; }
 
  private:
