@@ -25,7 +25,7 @@ struct WordFailure final : std::exception, Failure {
   explicit WordFailure(Failure failure) : Failure(std::move(failure)) {}
 };
 
-// Thrown through CLI11 by --as help; `parseCommandLine` prints the kinds.
+// Thrown through CLI11 by `--as help`; `parseCommandLine` then prints the list of kinds.
 struct KindsAsked final : std::exception {};
 
 // Parses "160x90x40" into as many positive, finite numbers as `sizes` holds; false for anything else.
@@ -65,16 +65,16 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
 void addDepthOptions(CLI::App& app, SourceOptions& source);
 // Adds --material KEY=VALUE,..
 void addMaterialOption(CLI::App& app, SourceOptions& source);
-// Or FILE or SECONDS=FILE,.., which goes to `maps` as it is.
+// The same option; a value FILE or SECONDS=FILE,.. is stored in `maps` without being parsed.
 void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps);
 // Adds --fps.
 void addRateOption(CLI::App& app, SourceOptions& source);
 // Adds --box.
 void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume);
 
-// Parses the command line. Adds --version, to every command; the help shows an option's default after the first line of
-// its text, and the first line of a description before the usage, the others after it. After a usage error, --help or
-// --version it has printed everything and returns the exit code.
+// Parses the command line. Adds --version to every command. In the help, an option's default follows the first line of
+// its text; the first line of a description precedes the usage, the others follow it. After a usage error, --help or
+// --version everything has been printed, and the exit code is returned.
 [[nodiscard]] std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv);
 
 }  // namespace relievo

@@ -35,7 +35,7 @@ class ProgressLine {
     const Duration pause = !on_terminal_ ? kLogPause : shown_ ? kTerminalPause : Duration(0);
     if (clock_.now() - last_ >= pause) put(text(elapsed()));
   }
-  // Prints at once, on a terminal: for steps that take long.
+  // On a terminal, prints at once: for steps that take long.
   void say(const std::string& text) {
     if (on_terminal_) put(text);
     else show([&](Duration) { return text; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the surface of a live film waits for frames: from the stream's period and how late its frames come. Pure.
+// How long the surface of a live film waits for frames, from the stream's period and its frames' delay. Pure.
 #pragma once
 
 #include <array>
@@ -27,40 +27,41 @@ inline constexpr Duration kLiveAge = std::chrono::milliseconds(50);
 // Haptics 2019).
 inline constexpr Duration kMostBehind = std::chrono::milliseconds(50), kMostBefore = std::chrono::milliseconds(15);
 
-// For frames a `period` apart that come up to `late` after they were taken: as many frames as kLiveAge leaves room for.
-// Where there is no room for one frame, the surface waits for it all the same, and is carried forward by the missing
-// time: by no more than a period, and not at all where a carried surface would be less exact than an old one (kNodHz).
+// For frames that are `period` apart and arrive up to `late` after they were taken: waits for as many frames as
+// kLiveAge leaves room for. If there is no room for one frame, the surface waits for one all the same and is
+// extrapolated by the missing time: by no more than a period, and not at all where an extrapolated surface would be
+// less exact than an old one (kNodHz).
 [[nodiscard]] LookAhead lookAheadFor(Duration period, Duration late) noexcept;
-// The law if it needs no more frames than there are, else the smoothest that does.
+// Returns `law` if `frames` of look-ahead suffice for it, else the smoothest law for which they do.
 [[nodiscard]] TimeLaw lawWithin(TimeLaw law, int frames) noexcept;
 
-// The rate of a clock that is to gain `behind`: in about half a second, and by no more than 5 %, which no finger tells
-// from the scene's own speed.
+// The clock rate that makes up for `behind` in about half a second. It differs from 1 by at most 5 %, which a finger
+// cannot tell from the scene's own speed.
 [[nodiscard]] double rateToGain(Duration behind) noexcept;
 
-// When the last frames of a live stream came, and what age of the surface follows from it. One thread.
+// Records the delays of a live stream's last frames, and derives the age of the felt surface from them. One thread.
 class Arrivals {
  public:
   static constexpr std::size_t kCounted = 128;  // about four seconds
   // Added to the measured age: the time from a frame's arrival to the tick that feels it.
   static constexpr Duration kMargin = std::chrono::milliseconds(2);
 
-  // The next frame, of the time `media`, came `delay` after it was taken. In order of time.
+  // Adds the next frame, of media time `media`, which arrived `delay` after it was taken. In order of time.
   void add(MediaTime media, Duration delay) noexcept;
-  // Keeps only the last few: the first frames of a stream may have waited in its buffer.
+  // Forgets all but the last few: the first frames of a stream may have waited in its buffer.
   void forgetAllBut(std::size_t last) noexcept;
 
   [[nodiscard]] std::size_t count() const noexcept { return count_; }
-  // The stream no longer hands out frames that waited in its buffer: the reader had to wait for the last one.
+  // True once the reader has had to wait for the last frame: no frame is left in the stream's buffer.
   [[nodiscard]] bool keepsPace() const noexcept;
-  // The delay within which 49 of 50 of the counted frames came, and the shortest delay; 0 without frames.
+  // The delay within which 49 of 50 of the counted frames arrived, and the shortest delay; 0 without frames.
   [[nodiscard]] Duration late() const noexcept;
   [[nodiscard]] Duration soonest() const noexcept;
   // The delay of the newest frame.
   [[nodiscard]] Duration newest() const noexcept { return count_ == 0 ? Duration(0) : back(0).delay; }
   // The mean time between two frames; 0 with fewer than two.
   [[nodiscard]] Duration period() const noexcept;
-  // The age at which the surface has the frames that it waits for, 49 times of 50.
+  // The surface's age at which the frames that it waits for have arrived, 49 times of 50.
   [[nodiscard]] Duration age(const LookAhead& ahead) const noexcept;
 
  private:

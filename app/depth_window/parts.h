@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interpolation laws of a method of touch: the surface between samples and between frames.
+// Interpolation laws of a touch method: the surface between samples and between frames.
 #pragma once
 
 #include <cstdint>
 
 namespace relievo {
 
-// The surface between two frames, and how many frames beyond the next one it needs.
+// Interpolation between two frames; some laws need frames beyond the next one.
 enum class TimeLaw : std::uint8_t {
   Hold,     // the newest frame, unchanged
   Linear,   // from the present frame to the buffered next one (paper, eq. 1)

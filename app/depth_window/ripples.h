@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells depth whose steps a lossy codec has changed from depth that was only rounded.
+// Distinguishes depth that a lossy codec has changed from depth that was only rounded.
 #pragma once
 
 #include <span>
@@ -8,10 +8,10 @@
 
 namespace relievo {
 
-// The share of the steps between neighbouring samples at which the depth turns, from up to down or back, for the second
-// time within twelve samples. Rounded, a smooth surface turns once at the top of each hill; a codec's ripples and noise
-// turn again at once. Steps over an edge do not count. 0 without steps. Reads 32 rows and 32 columns of each frame, at
-// most 1024 samples of each.
+// The share of the steps between neighbouring samples at which the depth changes direction, from up to down or back,
+// for the second time within twelve samples. A smooth surface that was rounded changes direction once, at the top of
+// each hill; a codec's ripples and noise do so again at once. Steps over an edge do not count. 0 without steps. Reads
+// 32 rows and 32 columns of each frame, at most 1024 samples of each.
 [[nodiscard]] double ripplesOf(std::span<const TimedSurface> frames);
 
 }  // namespace relievo

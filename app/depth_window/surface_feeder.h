@@ -32,7 +32,7 @@ class SurfaceFeeder {
     volume_ = volume;
   }
 
-  // The film is not continuous here: opened, sought, looped. What follows is a new epoch.
+  // Call where the film is not continuous: after opening, seeking, looping. A new epoch begins.
   void beginEpoch() noexcept;
 
   // `present` is the depth of the picture on the screen, `ahead` that of those after it, an empty frame where there is
@@ -50,13 +50,13 @@ class SurfaceFeeder {
   // The whole window; what it held before is released.
   void fill(SurfaceWindow& window) const;
 
-  // The time of the frame that the surface at `now` begins from; nothing when the window is empty.
+  // The time of the frame that the surface at `now` begins from; nullopt if the window is empty.
   [[nodiscard]] std::optional<MediaTime> frameAt(MediaTime now) const noexcept;
 
  private:
-  // False when not all of `ahead` went in.
+  // False if some frames of `ahead` did not fit.
   bool addAhead(std::span<const Frame> ahead, std::span<const Frame> materials);
-  // False when `depth` is of another size than the frames that are held.
+  // False if `depth` has another size than the frames in the window.
   [[nodiscard]] Result<bool> add(const Frame& depth, const Frame& material);
 
   DepthCalibration calibration_;

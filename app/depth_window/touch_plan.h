@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: measures a clip's depth and chooses the least smoothing that it needs.
+// Measures a clip's depth and chooses the least smoothing that it needs: the plan.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct ClipMeasure {
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames
   bool still = false;         // no sampled place changes
-  bool whole_rows = false;    // HeightField::blockOf
+  bool whole_rows = false;    // blocks are read in whole rows (HeightField::blockOf)
 };
 // Frames in ascending order, all of one size. All zero without frames.
 [[nodiscard]] ClipMeasure measureClip(std::span<const TimedSurface> frames);

@@ -17,13 +17,13 @@ class WindowFrames {
  public:
   // Forgets all frames, and the shots with them.
   void clear() noexcept;
-  // Makes `now` the present moment: lets go of the frames that it leaves out. True when there were any.
+  // Makes `now` the present moment and drops the frames that have left the window. True if there were any.
   bool moveTo(MediaTime now);
-  // Puts a frame at its place in time, whatever the order in which frames come. False when it is not held: its time is
-  // that of another frame, or the window reaches neither as far back nor as far ahead.
+  // Inserts a frame by its time; frames may come in any order. False if it was not inserted: another frame has its
+  // time, or it lies before or beyond the window.
   bool add(TimedSurface frame);
 
-  // Four frames lie after the present moment: one more would be let go at once.
+  // True if four frames lie after the present moment: one more would be dropped at once.
   [[nodiscard]] bool full() const noexcept { return ahead() == SurfaceWindow::kAhead; }
   [[nodiscard]] bool contains(MediaTime time) const noexcept;
   [[nodiscard]] std::span<const TimedSurface> frames() const noexcept { return frames_; }
