@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// Calls work(first, end) for bands of rows, several at once on OpenCV's threads. The bands are the same whatever the
-// number of threads, so that what is computed from a whole band is too.
+// Calls work(first, end) for bands of rows, several at once on OpenCV's threads. The bands do not depend on the number
+// of threads, so results computed from a whole band do not either.
 template <class Work>
 void inBands(int rows, Work&& work) {
   constexpr int kBand = 32;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells the wide unknown areas of a depth picture, which stay holes, from the narrow ones, which are filled.
+// Separates a depth picture's wide unknown areas, which stay holes, from the narrow ones, which are filled.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// 1 where a disc of `radius` samples fits into the area that `unknown` marks; one value a sample of `map`.
+// Returns 1 where a disc of `radius` samples fits into the area that `unknown` marks; one value for each sample of
+// `map`.
 std::vector<std::uint8_t> findWide(const std::vector<std::uint8_t>& unknown, const DepthMap& map, int radius);
 
 }  // namespace relievo

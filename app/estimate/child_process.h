@@ -13,9 +13,9 @@
 
 namespace relievo {
 
-// Run by /bin/sh -c in a process group of its own. This side's ends of the pipes do not block. The destructor ends the
-// whole group: SIGTERM, a second to tidy up, SIGKILL. If this program is killed, so is the group. What leaves the group
-// (setsid) is the command's own affair.
+// Runs `/bin/sh -c` in a process group of its own. This side's ends of the pipes do not block. The destructor ends the
+// whole group: SIGTERM, a second to tidy up, SIGKILL. If this program is killed, the group is killed too. Processes
+// that leave the group (setsid) are not ended.
 class ChildProcess {
  public:
   // `variables`: NAME=VALUE, besides this program's own.

@@ -20,9 +20,9 @@ namespace relievo {
 // one depth picture for each picture, in order, rows without gaps. Its environment tells the sizes: RELIEVO_WIDTH,
 // RELIEVO_HEIGHT, RELIEVO_DEPTH_WIDTH, RELIEVO_DEPTH_HEIGHT. It may answer late, by up to kMostLate pictures.
 //
-// A thread serves the pipes, so that neither side waits for the other. What goes wrong is one line that names the
-// command, how it ended, and the last line that it wrote to its standard error. Waiting ends with Cancelled when `stop`
-// is set, and with Timeout when for `patience` nothing was read or written.
+// A thread serves the pipes, so that neither side waits for the other. An error is one line that names the command, how
+// it ended, and the last line of its standard error. Waiting ends with Cancelled when `stop` is set, and with Timeout
+// when nothing was read or written for `patience`.
 class DepthCommand final : public DepthEstimator {
  public:
   static constexpr std::size_t kMostLate = 64;
@@ -66,13 +66,13 @@ class DepthCommand final : public DepthEstimator {
   mutable std::mutex mutex_;
   std::condition_variable moved_;
   // Only the pipes' thread uses these.
-  std::size_t written_ = 0;         // bytes of the first picture that waits
+  std::size_t written_ = 0;         // bytes of the first waiting picture
   std::vector<std::uint8_t> part_;  // the next answer
   // Guarded by the mutex.
   std::deque<RawPicture> waiting_;  // to be written
   std::deque<DepthEstimate> answers_;
   std::size_t part_bytes_ = 0;  // of the next answer
-  std::string said_;            // the end of its messages
+  std::string said_;            // the end of its standard error
   std::size_t given_ = 0, answered_ = 0;
   bool no_more_ = false, output_ended_ = false;
   std::atomic<bool> too_much_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What guesses depth from one view: a command or a network. Nothing here says how far anything is.
+// Interface of what estimates depth from one view: a command or a network. The depth is relative, without a unit.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct RedGreenBlue {
 };
 using RawPicture = BytePicture<RedGreenBlue>;
 
-// Relative inverse depth, row by row: larger is nearer. Scale and offset may differ from picture to picture. It shows
+// Relative inverse depth, row by row: larger is nearer. Scale and offset may differ from picture to picture. It covers
 // the whole picture that it was made from, whatever its size.
 struct DepthEstimate {
   int cols = 0, rows = 0;
@@ -26,17 +26,17 @@ struct DepthEstimate {
   [[nodiscard]] std::size_t at(int c, int r) const noexcept { return static_cast<std::size_t>(r) * cols + c; }
 };
 
-// One estimate for each picture, in their order. It may be late: it wants further pictures before it answers. Use from
-// one thread. After a failure only its destructor may be called, which leaves nothing running.
+// Returns one estimate for each picture, in order. It may need further pictures before it answers. Use from one thread.
+// After a failure only its destructor may be called, which leaves nothing running.
 class DepthEstimator {
  public:
   virtual ~DepthEstimator() = default;
 
   // The next picture; all of one size. May wait while the estimator is busy.
   [[nodiscard]] virtual Outcome<void> give(RawPicture picture) = 0;
-  // There are no more pictures.
+  // Call after the last picture.
   virtual void end() = 0;
-  // The next estimate; nullopt if it wants more pictures first, or has answered all. After `end` it waits for them.
+  // The next estimate; nullopt if more pictures are needed first, or all have been answered. After `end` it waits.
   [[nodiscard]] virtual Outcome<std::optional<DepthEstimate>> take() = 0;
 };
 

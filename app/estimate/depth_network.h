@@ -11,16 +11,16 @@
 
 namespace relievo {
 
-// What networks such as MiDaS 2.1 and Depth Anything take and give: one picture as 1 x 3 x height x width, red, green,
-// blue, as shares of 255 less (0.485, 0.456, 0.406), over (0.229, 0.224, 0.225); and relative inverse depth in one
-// channel, larger is nearer. A network of one size is given the whole picture in it; one that takes any gets the
-// picture's shape, kLongSide long, in multiples of kPatch. The estimate has the picture's shape, too.
+// The interface of networks such as MiDaS 2.1 and Depth Anything. Input: one picture as 1 x 3 x height x width, red,
+// green, blue from 0 to 1, minus the mean (0.485, 0.456, 0.406), divided by (0.229, 0.224, 0.225). Output: relative
+// inverse depth in one channel, larger is nearer. A network of fixed size gets the whole picture scaled to it; any
+// other gets the picture's shape, kLongSide long, in multiples of kPatch. The estimate has the picture's shape, too.
 class DepthNetwork final : public DepthEstimator {
  public:
   static constexpr int kLongSide = 518, kPatch = 14;  // of Depth Anything
 
-  // Opened for pictures of cols x rows. `input`: the size to give it, if it takes any. Failures name the file; what
-  // OpenCV says is in the line.
+  // Opens the network for pictures of cols x rows. `input`: the size to give it, if it takes any. Failures name the
+  // file and quote OpenCV's message.
   [[nodiscard]] static Outcome<std::unique_ptr<DepthNetwork>> open(const std::string& path, int cols, int rows,
                                                                    std::optional<std::pair<int, int>> input);
   ~DepthNetwork() override;

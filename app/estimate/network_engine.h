@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What computes an ONNX network: ONNX Runtime where the build has found it, else OpenCV, which knows fewer operations:
-// 4.6 and 4.10 refuse Depth Anything and DPT as PyTorch 2.11 exports them, or end the program by a signal.
+// Runs an ONNX network: by ONNX Runtime if the build has it, else by OpenCV, which supports fewer operations: 4.6 and
+// 4.10 refuse Depth Anything and DPT as PyTorch 2.11 exports them, or end the program by a signal.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct NetworkPlanes {
   std::vector<float> values;
 };
 
-// Use from one thread. Failures name the file and say in one line what the library says.
+// Use from one thread. Failures name the file and quote the library in one line.
 class NetworkEngine {
  public:
   virtual ~NetworkEngine() = default;
@@ -28,14 +28,14 @@ class NetworkEngine {
   [[nodiscard]] virtual Outcome<NetworkPlanes> run(NetworkPlanes input) = 0;
 };
 
-// `path` is for messages alone.
+// `path` is only for messages.
 [[nodiscard]] Outcome<std::unique_ptr<NetworkEngine>> openNetwork(const std::string& path,
                                                                   std::span<const std::uint8_t> model);
 
-// A network's output of 1 x rows x cols or 1 x 1 x rows x cols; without values where its shape is another.
+// A network's output of 1 x rows x cols or 1 x 1 x rows x cols; empty if its shape is another.
 [[nodiscard]] NetworkPlanes planesOfOutput(std::span<const std::int64_t> shape, const float* values);
 
-// The library's words in one short line.
+// The library's message, shortened to one line.
 [[nodiscard]] std::string inOneLine(const std::string& words);
 
 }  // namespace relievo

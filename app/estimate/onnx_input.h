@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The size of the pictures that an ONNX network takes, which OpenCV does not tell.
+// Finds the size of the pictures that an ONNX network takes, which OpenCV does not report.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct OnnxInput {
   int cols = 0, rows = 0;
 };
 
-// Of a model's one input of the shape 1 x 3 x rows x cols. Corrupt if it is no ONNX model, Unsupported if it has no
-// such input or takes more than one.
+// Returns the size of a model's single input, of shape 1 x 3 x rows x cols. Corrupt if it is no ONNX model, Unsupported
+// if it has no such input or takes more than one.
 [[nodiscard]] Result<OnnxInput> onnxInputOf(std::span<const std::uint8_t> model);
 
 }  // namespace relievo

@@ -16,12 +16,12 @@
 
 namespace relievo {
 
-// In each shot, the first picture that shows something decides: its nearest and farthest twentieth lie at 85 and 15 %
-// of the relief's depth, and what is nearer or farther is squeezed into the rest. Points of it are followed. Each
-// further estimate is scaled and shifted to the heights that these points have had on average since they came into the
-// picture, as most of them agree; so an error of one picture leaves nothing behind. Points that come in later take
-// their heights from the steady relief. What flickers beyond that is averaged along the motion of the picture, but for
-// what has changed its height or its colour. A cut, or a picture that continues nothing, begins anew.
+// In each shot, the first picture with any relief sets the scale: its nearest and farthest twentieth are placed at 85
+// and 15 % of the relief's depth, and what lies beyond is compressed into the rest. Points of it are tracked. Each
+// further estimate is scaled and shifted to the mean heights that these points have had since they appeared, as most of
+// them agree, so the error of one picture does not persist. New points take their heights from the steady relief.
+// Remaining flicker is averaged along the picture's motion, except where height or colour has changed. A cut, or a
+// picture without anything of the last one, begins anew.
 //
 // Use from one thread; OpenCV's threads help.
 class SteadyRelief {
@@ -29,11 +29,11 @@ class SteadyRelief {
   // 16 bits of full range, near high, heights linear in the estimate: in relative inverse depth.
   [[nodiscard]] static DepthCalibration calibration();
 
-  // The next picture and its estimate; all of one size. A frame at time 0.
+  // Adds the next picture and its estimate; all pictures have one size. Returns a frame at time 0.
   [[nodiscard]] Frame add(const RawPicture& picture, const DepthEstimate& estimate);
 
   [[nodiscard]] std::size_t shots() const noexcept { return shots_; }
-  // By how much the estimates' scale varied within a shot, at most: .2 is 20 %.
+  // The largest variation of the estimates' scale within a shot: .2 is 20 %.
   [[nodiscard]] double wandered() const noexcept { return wandered_; }
 
  private:
@@ -51,7 +51,7 @@ class SteadyRelief {
   ReliefFit fit_;
   int cols_ = 0, rows_ = 0;
   Heights heights_;        // of the picture before
-  bool anchored_ = false;  // the shot has shown something
+  bool anchored_ = false;  // a picture of the shot has set the scale
   std::size_t shots_ = 0;
   double least_scale_ = 0, most_scale_ = 0;  // of the shot
   double wandered_ = 0;
