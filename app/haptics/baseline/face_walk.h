@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walking the proxy over the triangles of the relief to where it is closest to the finger: a converged god-object.
+// Moves the proxy over the relief's triangles to the point closest to the finger: a converged god-object.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,10 +10,10 @@
 
 namespace relievo {
 
-// From the triangle that the finger went through to the local minimum of the distance to `hip_mm` on the triangulated
-// surface (Zilles and Salisbury 1995, with the constraint planes found by walking from triangle to neighbour instead of
-// one at a time): inside a face the walk ends, from an edge it looks at the face beyond, from a vertex at the six faces
-// around it. At most 256 steps in a tick.
+// Starts at the triangle that the finger went through and ends at the local minimum of the distance to `hip_mm` on the
+// triangulated surface (Zilles and Salisbury 1995; the constraint planes are found by walking from a triangle to its
+// neighbours instead of one at a time). Inside a face the walk ends; at an edge it tries the face beyond, at a vertex
+// the six faces around it. At most 256 steps in a tick.
 [[nodiscard]] glm::dvec3 walkFacesToClosest(const SurfaceInTime& surface, const Crossing& crossing,
                                             const glm::dvec3& hip_mm) RELIEVO_RT;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walking the proxy over the edges and vertices of the triangulated relief to where it is closest to the finger.
+// Moves the proxy over the edges and vertices of the triangulated relief to the point closest to the finger.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,10 +10,11 @@
 
 namespace relievo {
 
-// From the triangle that the finger went through, to the local minimum of the distance to `hip_mm` among the points on
-// edges (Walker and Salisbury 2003: the proxy is restricted to edges and vertices). From a point on an edge the walk
-// may go to any edge of the two triangles beside it, from a vertex to any edge of the triangles around it; it goes to
-// the closest, as long as that is closer. At most kMaxSteps steps in a tick; the next tick goes on from there.
+// Starts at the triangle that the finger went through and ends at the local minimum of the distance to `hip_mm` among
+// the points on edges (Walker and Salisbury 2003: the proxy is restricted to edges and vertices). From a point on an
+// edge the walk may go to any edge of the two adjacent triangles, from a vertex to any edge of the triangles around it;
+// it goes to the closest one while that reduces the distance. At most kMaxSteps steps in a tick; the next tick
+// continues.
 [[nodiscard]] glm::dvec3 walkToClosest(const SurfaceInTime& surface, const Crossing& crossing,
                                        const glm::dvec3& hip_mm) RELIEVO_RT;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The penalty method: depth below the surface along its normal, times stiffness. No proxy, no memory.
+// The penalty method: force = stiffness times the depth below the surface, along its normal. No proxy, no memory.
 #pragma once
 
 #include "app/depth_window/parts.h"
@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// The surface is the triangle straight above the finger; the depth, the distance to that triangle's plane. Where the
-// finger goes below another triangle the force turns with it: thin parts push it out on the wrong side.
+// The surface is the triangle straight above the finger, and the depth is the distance to its plane. When the finger
+// moves below another triangle, the force turns with it: a thin part pushes the finger out on the wrong side.
 class Penalty final : public TouchMethod {
  public:
   Penalty(double stiffness_n_per_mm, TimeLaw time) noexcept : stiffness_(stiffness_n_per_mm), time_(time) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Proxy blending (Ruspini 2003; paper, IV-B): one proxy on the old surface, one on the new, and the finger's in
-// between.
+// Proxy blending (Ruspini 2003; paper, IV-B): one proxy on the old surface and one on the new; the felt proxy lies
+// between them.
 #pragma once
 
 #include "app/haptics/baseline/surface_in_time.h"
@@ -9,9 +9,9 @@
 
 namespace relievo {
 
-// Each proxy is a proxy graph's on a frame as it is. Over the time of one frame the blended proxy goes from the one on
-// the frame before to the one on the present frame: smooth, and about one frame late. Made for surfaces that deform a
-// little: one that rises past the proxy is not noticed.
+// Each proxy is a proxy graph's, on one unchanged frame. Over the time of one frame the blended proxy moves from the
+// one on the frame before to the one on the present frame: smooth, and about one frame late. The method is meant for
+// surfaces that deform a little: it does not notice a surface that rises past the proxy.
 class ProxyBlend final : public TouchMethod {
  public:
   ProxyBlend(double stiffness_n_per_mm, double jump_threshold_n) noexcept

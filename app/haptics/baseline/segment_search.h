@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact search on the triangulated relief: where a segment first goes from above the surface to below it.
+// Contact search on the triangulated relief: finds where a segment first passes from above the surface to below it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,8 +16,9 @@ struct Crossing {
 };
 
 // The segment is projected on the grid and followed from triangle to triangle (paper, III; Walker and Salisbury 2003):
-// no tree, and no triangle that the segment does not pass. A segment that begins below the surface, comes up and goes
-// down again is found where it goes down. Coming in from the side, through a hole's or the grid's rim, is no crossing.
+// no tree is needed, and only triangles on its way are tested. For a segment that begins below the surface, comes up
+// and goes down again, the point where it goes down is found. Entering from the side, through the rim of a hole or of
+// the grid, is no crossing.
 [[nodiscard]] std::optional<Crossing> firstCrossing(const SurfaceInTime& surface, const glm::dvec3& from_mm,
                                                     const glm::dvec3& to_mm) RELIEVO_RT;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangulated relief at one moment: vertices read from one frame, or from two with the moment between them.
+// The triangulated relief at one moment, its vertices read from one frame or interpolated between two.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// A view, for one tick. Vertices are computed where they are asked for; nothing is built.
+// A view for one tick. Vertices are computed on demand; nothing is built.
 class SurfaceInTime {
  public:
   SurfaceInTime() = default;
@@ -31,7 +31,7 @@ class SurfaceInTime {
     const TimedSurface& next = window.frames[static_cast<std::size_t>(k) + 1];
     if (next.repeats) return;
     next_ = &next.field;
-    // Paper, eq. 1, with the frame period told by the timestamps.
+    // Paper, eq. 1, with the frame period taken from the timestamps.
     weight_ = toSeconds(now - present.time) / toSeconds(next.time - present.time);
   }
 
@@ -40,12 +40,12 @@ class SurfaceInTime {
   [[nodiscard]] int rows() const RELIEVO_RT { return empty() ? 0 : present_->rows(); }
   [[nodiscard]] const GridMapping& grid() const RELIEVO_RT { return present_->grid(); }
 
-  // 0 <= c < cols, 0 <= r < rows. Not a number at a hole of either frame.
+  // Requires 0 <= c < cols, 0 <= r < rows. NaN at a hole of either frame.
   [[nodiscard]] double vertexHeight(int c, int r) const RELIEVO_RT {
     const double z = present_->heightMm(c, r);
     return next_ == nullptr ? z : z + (next_->heightMm(c, r) - z) * weight_;
   }
-  // The same as a point in the scene frame; its height is not a number outside the grid as well.
+  // The same as a point in the scene frame; outside the grid its height is NaN, too.
   [[nodiscard]] glm::dvec3 vertex(int c, int r) const RELIEVO_RT {
     const bool inside = c >= 0 && r >= 0 && c < cols() && r < rows();
     return {grid().x(c), grid().y(r), inside ? vertexHeight(c, r) : HeightField::kHole};
@@ -63,7 +63,7 @@ struct GridTriangle {
   int c = 0, r = 0;
   bool right = false;
 
-  // Nothing outside the grid, where there is no surface.
+  // Nullopt outside the grid, where there is no surface.
   [[nodiscard]] static std::optional<GridTriangle> under(double u, double v, int cols, int rows) RELIEVO_RT {
     if (!(u >= 0 && v >= 0 && u <= cols - 1 && v <= rows - 1) || cols < 2 || rows < 2) return std::nullopt;
     const int c = std::min(static_cast<int>(u), cols - 2);
@@ -87,8 +87,8 @@ struct TrianglePlane {
   [[nodiscard]] double at(double du, double dv) const RELIEVO_RT { return z0 + zu * du + zv * dv; }
 };
 
-// The surface's height at (x, y); not a number where there is none. A place on the rim of a hole belongs to the
-// surface: a proxy may rest there.
+// The surface's height at (x, y); NaN where there is none. A point on the rim of a hole belongs to the surface: a proxy
+// may rest there.
 [[nodiscard]] inline double surfaceHeight(const SurfaceInTime& surface, double x_mm, double y_mm) RELIEVO_RT {
   if (surface.empty()) return HeightField::kHole;
   const double u = surface.grid().u(x_mm);
@@ -97,7 +97,7 @@ struct TrianglePlane {
     return t ? TrianglePlane(surface, *t).at(u - t->c, v - t->r) : HeightField::kHole;
   };
   double height = heightIn(GridTriangle::under(u, v, surface.cols(), surface.rows()));
-  // One look into each of the eight directions meets all the triangles that may share an edge or a vertex here.
+  // Steps in eight directions reach every triangle that may share an edge or a vertex here.
   constexpr double kNear = 1e-9, kNearer = 0.4e-9;
   constexpr std::array<std::pair<double, double>, 8> kAround{{{kNear, kNearer},
                                                               {kNearer, kNear},

@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Where the proxy may rest.
+// The points where the proxy may rest.
 enum class Walk : std::uint8_t {
   Graph,  // on edges and vertices
   Faces,  // anywhere: the true closest point of the triangles
@@ -20,10 +20,10 @@ enum class Walk : std::uint8_t {
 struct TriangleParts {
   Walk walk = Walk::Graph;
   TimeLaw time = TimeLaw::Hold;
-  // IV-A: a rising surface takes the proxy along. Without it a surface that rises past the proxy between two ticks is
-  // not noticed, and contact is lost until the finger has been outside (paper, Fig. 5).
+  // IV-A: a rising surface takes the proxy along. Without this, a surface that rises past the proxy between two ticks
+  // is not noticed, and contact is lost until the finger has been outside (paper, Fig. 5).
   bool carry = false;
-  // IV-C: a force that changes by more than this from one tick to the next lets the proxy through; 0: none.
+  // IV-C: if the force changes by more than this from one tick to the next, the proxy is let through; 0: never.
   double jump_threshold_n = 0;
 };
 
@@ -50,8 +50,8 @@ class TriangleProxy final : public TouchMethod {
   double height_under_proxy_ = HeightField::kHole;  // of the surface at the proxy's x, y, in the tick before
 };
 
-// The step that they share: from where the proxy was (at or above the surface) towards the finger, stopped by the
-// surface and slid to the closest point on it.
+// The step shared by these methods: moves the proxy from its position (at or above the surface) towards the finger
+// until the surface stops it, then slides it to the closest point of the surface.
 [[nodiscard]] Touch followFinger(const SurfaceInTime& surface, const glm::dvec3& proxy_mm, const glm::dvec3& hip_mm,
                                  double stiffness_n_per_mm, Walk walk) RELIEVO_RT;
 

@@ -15,8 +15,8 @@ namespace relievo {
 // wanted force, by the trapezoid rule, is the artefacts' book. Units: N mm = mJ. Positive means energy given to the
 // hand.
 //
-// With friction the proxy slides against the force: what that takes from the hand is in the scene's book, too, as a
-// loss.
+// With friction the proxy slides against the force: the energy that this takes from the hand is booked as a loss in the
+// scene's book.
 //
 // A device may report a new position only in every other tick although the finger moves all the time. The force held
 // between two positions is then the mean of those sent; after kRestS without a new position the finger counts as

@@ -57,8 +57,8 @@ class HapticTask final : public CyclicTask {
   void changeScene(TouchMethod& method, const DisplayVolume& volume, const SafetyLimits& limits,
                    double stiffness_n_per_mm) noexcept;
 
-  // For the feeder's thread: fill the whole window, then publish. The previous contents of a window are released when
-  // it is filled again (see TripleBuffer).
+  // For the feeder's thread: fill the whole window, then publish it. A window's previous contents are released when it
+  // is filled again (see TripleBuffer).
   [[nodiscard]] SurfaceWindow& windowToFill() noexcept { return windows_.back(); }
   void publishWindow() noexcept { windows_.publish(); }
 

@@ -31,10 +31,10 @@ struct SafetyLimits {
 // position only in every other tick, dx is the movement between positions, and the force stays tilted until the next
 // position is overdue.
 //
-// A surface that leaps leaves a force that lags, and pushes on after the surface has gone: up to force^2/(2 slew) x the
-// hand's speed, 4 mJ for 2 N at 0.1 m/s. A cut costs that once; depth that leaps in every frame would pump. A tank
-// (after Franken et al. 2011) pays for the lag's work: it is refilled slowly, and when less than half is left, the
-// force that is wanted fades with the rest. So a lag gives at most twice tank_mj, plus tank_mj_per_s x t. A finger that
+// After a surface has leapt, the force lags and pushes on when the surface has already gone: up to force^2/(2 slew) x
+// the hand's speed, 4 mJ for 2 N at 0.1 m/s. A cut costs that once; depth that leaps in every frame would pump energy.
+// A tank (after Franken et al. 2011) pays for the lag's work: it is refilled slowly, and when less than half is left,
+// the method's force fades with the rest. So a lag gives at most twice tank_mj, plus tank_mj_per_s x t. A finger that
 // goes over a still step at 0.5 m/s again and again pays less than 10 mJ/s (energy-loop of relievo-lab stability).
 class SafetyFilter {
  public:

@@ -12,7 +12,7 @@ namespace relievo {
 
 // The centres of workspace and volume coincide until the clutch moves them. If the workspace is smaller than the
 // picture, one device millimetre maps to more scene millimetres, just enough to reach the whole picture. A wall of
-// stiffness K is then felt as scale x K. A device that points at the picture is taken as it is.
+// stiffness K is then felt as scale x K. A device that points at the picture is mapped one to one.
 class WorkspaceMapping {
  public:
   // While held, the device moves and the finger stays, as when a mouse is lifted.
