@@ -14,14 +14,14 @@ namespace relievo {
 // Follows whether the finger's own motion explains the proxy's.
 class CarriedProxy {
  public:
-  // In each tick of contact, after the proxy has slid to `contact`, on a surface that is `lowered_mm` lower than it is
-  // stored. True if a moving wall has passed over the finger and carried the proxy along, although by now the way
-  // straight up is much shorter. This applies only if the scene moved: a finger that pushes itself deep into a wall
-  // stays at that wall, even if it rests there, is read only in every other tick, or leaps further than the search
-  // follows in one tick; the proxy then still moves towards the place where the finger has sent it.
+  // Call in each tick of contact, after the proxy has slid to `contact`; the felt surface lies `lowered_mm` below the
+  // stored one. True if a moving wall has passed over the finger and carried the proxy along, although by now the way
+  // straight up is much shorter. True only if the scene moved. A finger that pushes itself deep into a wall stays at
+  // that wall, even if it rests there, is read only in every other tick, or leaps farther in one tick than the search
+  // follows: the proxy then still moves towards the place to which the finger has sent it.
   [[nodiscard]] bool sweptAway(FeltSurface& surface, const Contact& contact, const glm::dvec3& hip_mm,
                                double lowered_mm) RELIEVO_RT;
-  // There is no contact.
+  // Call when there is no contact.
   void release() RELIEVO_RT { on_its_way_ = false; }
 
  private:

@@ -42,8 +42,9 @@ class ControlGrid {
   };
 
   // `samples`: approximate number read per block, across and down (SampledBlock). `bend`: 5/24 keeps the curvature
-  // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 takes the means as
-  // they are. `straight`: where to keep what is straight, and outlives the grid; null if nobody asks. It needs `bend`.
+  // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 uses the means
+  // unchanged. `straight`: stores which points are straight, and must outlive the grid; null: not computed. Needs a
+  // `bend` over 0.
   ControlGrid(double pitch_mm, int most_samples, float bend, StraightPoints* straight = nullptr) noexcept
       : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend), straight_(straight) {}
   static constexpr double kSharpestMm = 5, kMostBendMm = 3;
@@ -73,14 +74,14 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
-  // The last patch was of this place and these frames, which are still there.
+  // True if the last patch was of this place and these frames, and is still valid.
   [[nodiscard]] bool wasPatch(int i0, int j0, std::uint32_t wanted) const RELIEVO_RT {
     return patch_ == Place{i0, j0, wanted};
   }
   // How straight the same points are, 0 .. 1; after `patch` with the same frames.
   void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
-  // Reads points around a place of frames that will be weighted soon; stops once it has read `most` blocks, or those of
-  // one point. Nothing is read so far away that the last patch would have to go.
+  // Reads points around a place, of frames that will get a weight soon; stops once it has read `most` blocks, or those
+  // of one point. Reads no points so far away that they would evict the last patch.
   void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
   // The frames, one bit per slot, of which a whole patch or place has been read.
   [[nodiscard]] std::uint32_t slotsRead() const RELIEVO_RT { return slots_read_; }
@@ -116,13 +117,13 @@ class ControlGrid {
   int most_samples_;
   float bend_;
   StraightPoints* straight_;
-  float most_bend_mm_ = 0;  // of a second difference that counts in full
+  float most_bend_mm_ = 0;  // largest second difference that counts in full
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  // Of the last patch, all of whose points are valid, and of the points that `readAhead` has read. Without slots when
-  // something was discarded or replaced since.
+  // The last patch, all of whose points are valid, and the last place of `readAhead`. Their `slots` are 0 once
+  // something was discarded or replaced.
   Place patch_, ahead_;
   bool patch_holes_ = false;
   std::uint32_t slots_read_ = 0;

@@ -18,9 +18,8 @@ namespace relievo {
 // Blocks counted per frame. A tick that has read more leaves optional work to later ticks.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
 // A frame has 16 narrow blocks around one place, and 32, with their rims, of a smooth level. A tick that has read that
-// many does not prepare the next one, which may read another 80 of three levels. With a lower bound too few ticks of a
-// finger that moves would be prepared: with 24, one of 40 fingers at an edge in noise fell off it 2.5 mm early, with 48
-// none.
+// many does not prepare the next tick, which may read another 80 of three levels. With a lower bound too few ticks of a
+// moving finger would be prepared: with 24, one of 40 fingers at a noisy edge fell off it 2.5 mm early, with 48 none.
 inline constexpr std::uint64_t kBlocksOfFrame = 48;
 
 // S = N + c(W - N): the narrow level N keeps edges, the smooth level W has little noise, and c is a soft clamp, so that
@@ -38,7 +37,7 @@ class FeltSurface {
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
   // The nearest unsmoothed sample: the lower of the present frame's and the next one's. Reads two samples where the
-  // smooth surface needs hundreds. Below everything at a hole or outside the picture.
+  // smooth surface needs hundreds. At a hole or outside the picture it is below every height.
   [[nodiscard]] double lowestSample(double x_mm, double y_mm) const RELIEVO_RT;
   // Prefetches those two samples.
   void prefetchSample(double x_mm, double y_mm) const RELIEVO_RT;
@@ -55,12 +54,12 @@ class FeltSurface {
   [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
   [[nodiscard]] bool hasReadAFrame() const RELIEVO_RT { return blocksRead() - read_before_ >= kBlocksOfFrame; }
 
-  // `prepare` was for this moment and these frames.
+  // True if `prepare` was called for this moment and these frames.
   [[nodiscard]] bool asPrepared() const RELIEVO_RT { return as_prepared_; }
 
   // Call after `moveTo` with the same window: prepares for a tick expected at `next`, with the proxy near (x, y). The
   // preparation stays valid while the contributing frames are the same, even in a newer window. `mm_per_s`: the proxy's
-  // velocity, by which the frame after those is read where the proxy will be when it begins to count.
+  // velocity; the frame that gets a weight next is read where the proxy will then be.
   void prepare(const SurfaceWindow& window, MediaTime next, double x_mm, double y_mm,
                const glm::dvec2& mm_per_s = glm::dvec2(0)) RELIEVO_RT;
   // Prefetches everything except the control points, which a prepared tick does not need.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spring between finger and surface: where its end lies on a surface with friction, texture and soft places.
+// The spring between finger and surface: finds its end on a surface with friction, texture and soft places.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -27,21 +27,21 @@ class FingerSpring {
         stick_(tick_s),
         ripple_(places.texture.value_or(texture).wavelength_mm, tick_s) {}
 
-  // In each tick of contact, once; scene mm. `material` is that at the closest point of the surface, which is
-  // `lowered_mm` lower than it is stored.
+  // Call once in each tick of contact; scene mm. `material` is that at the closest point of the surface, which lies
+  // `lowered_mm` below the stored one.
   [[nodiscard]] glm::dvec3 end(FeltSurface& surface, const PlaceMaterial& material, const Contact& closest,
                                const glm::dvec3& hip_mm, double lowered_mm) RELIEVO_RT;
   // Reads the surface where friction holds the finger; `surface` is at the next tick's moment. Only while it `sticks`.
   void prepare(FeltSurface& surface) RELIEVO_RT { stick_.prepare(surface); }
   [[nodiscard]] bool sticks() const RELIEVO_RT { return stick_.holds(); }
-  // Contact has ended, or begins anew: then with at most this force at first.
+  // Call when contact ends, or begins anew with a force of at most `most_n`.
   void release(double most_n = std::numeric_limits<double>::infinity()) RELIEVO_RT;
 
-  // For tests: whether friction drags, or has dragged just now.
+  // For tests: true while friction drags, and shortly afterwards.
   [[nodiscard]] bool slides() const RELIEVO_RT { return stick_.slides(); }
 
  private:
-  bool rubs_, ripples_, softens_;  // what the film's material has
+  bool rubs_, ripples_, softens_;  // properties that the film's material has
   PlaceSpring place_;
   StickPoint stick_;
   Ripple ripple_;

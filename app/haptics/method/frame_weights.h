@@ -26,8 +26,8 @@ struct FrameMoment {
 // last frame of a shot are held.
 using FrameWeights = std::array<float, SurfaceWindow::kCapacity>;
 [[nodiscard]] FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT;
-// A surface carried forward in time: where it is, and where it will be a duration `carried` later if it goes on as it
-// goes, S + carried dS/dt. Both sum to 1. The rate is that of the two periods around the moment, interpolated between
+// For a surface that is extrapolated in time: its position, and its position a duration `carried` later at its present
+// rate, S + carried dS/dt. Both sum to 1. The rate is that of the two periods around the moment, interpolated between
 // them, so that it is continuous and needs no frame beyond those of Linear.
 [[nodiscard]] FrameWeights carriedWeights(const SurfaceWindow& window, const FrameMoment& moment, TimeLaw law,
                                           Duration carried) RELIEVO_RT;

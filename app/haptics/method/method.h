@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The interface of a method of touch: from the finger's position to the proxy on the surface.
+// The interface of a touch method: from the finger's position to the proxy on the surface.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class TouchMethod {
   // Prefetches the memory that `update` will read, without waiting.
   virtual void prefetch(const SurfaceWindow& /*window*/) const RELIEVO_RT {}
   virtual void upkeep(const SurfaceWindow& /*window*/, MediaTime /*now*/) RELIEVO_RT {}
-  // Forgets everything: the finger is free until it has been outside the solid.
+  // Forgets all state: the finger is free until it has been outside the solid.
   virtual void reset() RELIEVO_RT = 0;
 };
 

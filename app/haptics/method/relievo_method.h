@@ -53,7 +53,7 @@ class RelievoMethod final : public TouchMethod {
   // finger is free because it started inside.
   [[nodiscard]] double depthMm() RELIEVO_RT;
   [[nodiscard]] bool buried() const RELIEVO_RT { return state_ == State::Buried; }
-  // For tests: whether friction drags, or has dragged just now.
+  // For tests: true while friction drags, and shortly afterwards.
   [[nodiscard]] bool slides() const RELIEVO_RT { return spring_.slides(); }
   // For tests: blocks read in all ticks so far.
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT { return surface_.blocksRead(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture: a surface with ripples, at the place under the finger.
+// Texture: adds ripples to the surface at the place under the finger.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -11,20 +11,20 @@
 namespace relievo {
 
 // A (sin 2 pi x/L + sin 2 pi y/L), added to the surface along its normal; x and y are the finger's, which do not jump
-// with the noise of the depth. A finger that moves at v along x feels stiffness x A at v/L. What passes more than
-// kFlat ripples a tick fades out, and at half of one nothing is left: the device could not hold it. A finger that has
-// just come in feels none, and no ripple pulls.
+// with the noise of the depth. A finger that moves at v along x feels stiffness x A at v/L. Ripples that pass at more
+// than kFlat a tick fade out, and at half a ripple a tick nothing is left, since the device could not follow. A finger
+// that has just entered feels none, and no ripple pulls.
 //
-// The finger feels heights and not slopes, since the slope of a ripple (2 pi A/L x the force) would be stiffer than
-// devices are. Such a force does work: a finger that goes in at a valley and out at a crest would be given energy. So
-// it pays from what it has taken since it came in and kGiftMj, and is smaller where that is not enough.
+// The force follows the ripples' height, not their slope, since the slope (2 pi A/L x the force) would be stiffer than
+// devices are. Such a force does work: a finger that goes in at a valley and out at a crest would gain energy. So the
+// ripples spend only what they have taken since the finger came in, plus kGiftMj, and get smaller where that is not
+// enough.
 class Ripple {
  public:
-  static constexpr double kFlat = 0.35;     // ripples a tick
-  static constexpr double kGiftMj = 0.005;  // less than anybody feels
-  static constexpr double kMostOwnMj = 1;   // of what was taken
-  static constexpr double kSpeedWithinS =
-      4e-3;  // over which the speed is averaged; devices may answer every other tick
+  static constexpr double kFlat = 0.35;          // ripples a tick
+  static constexpr double kGiftMj = 0.005;       // imperceptible
+  static constexpr double kMostOwnMj = 1;        // of what was taken
+  static constexpr double kSpeedWithinS = 4e-3;  // averaging time of the speed; devices may answer every other tick
 
   Ripple(double wavelength_mm, double tick_s) noexcept;
 
@@ -34,7 +34,7 @@ class Ripple {
     double depth_mm = 0;        // along it, without the ripples
     double amplitude_mm = 0, stiffness_n_per_mm = 0;
   };
-  // What to add to the proxy.
+  // The offset to add to the proxy.
   [[nodiscard]] glm::dvec3 offset(const Finger& finger) RELIEVO_RT;
   void release() RELIEVO_RT { feels_ = false; }
 

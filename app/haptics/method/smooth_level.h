@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The felt surface away from edges: as wide as the place allows.
+// The felt surface away from edges, smoothed as widely as the place allows.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 namespace relievo {
 
 // W = w + h (b - w): the wide level w follows every curve that a finger feels; the broad level b averages more of the
-// steps and of the noise, and takes its place where it is straight (h = 1). h is a function of the straightness of b's
-// control points, a B-spline as the levels are, so that W is as smooth as they are. It falls to 0 while a point that is
-// not straight has little weight yet, since an edge or a hole behind that point must not be felt from so far away.
+// depth's steps and noise, and replaces w where it is straight (h = 1). h is a function of the straightness of b's
+// control points, a B-spline like the levels, so that W is as smooth as they are. It falls to 0 while a point that is
+// not straight still has little weight, since an edge or a hole behind that point must not be felt from so far away.
 // Where h is 0 or 1 all around, only one level counts, and only that one is read.
-// A view of one moment, prepared in the tick before, as its levels are.
+// A view of one moment, prepared in the tick before, like its levels.
 class SmoothLevel {
  public:
   // Without a broad level if it is not wider than the wide one.

@@ -45,13 +45,13 @@ class SurfaceLevel {
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // How straight the surface is around a place, 0 .. 1: all of the same continuity as its height.
+  // How straight the surface is around a place, 0 .. 1, as continuous as its height.
   struct Straightness {
     bool all = false;
-    SurfacePoint share;  // if not all of it
+    SurfacePoint share;  // valid unless all of it is straight
   };
   [[nodiscard]] Straightness straightness(double x_mm, double y_mm) RELIEVO_RT;
-  // The same for the place and the moment that were prepared for: none of it is bent.
+  // True if the surface is straight all around the place and moment given to `prepare`.
   [[nodiscard]] bool preparedStraight() const RELIEVO_RT { return prepared_straight_.all; }
   // The height on a single frame: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
