@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A table of figures on its way into a CSV.
+// A table of figures to be written as CSV.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Text as it is (without commas), a number with six digits, a number that is not one as an empty cell.
+// Text is written as it is (it must not contain commas), a number with six digits, NaN as an empty cell.
 class Cell {
  public:
   Cell(const char* text) : text_(text) {}                      // NOLINT(google-explicit-constructor): rows are lists
@@ -29,7 +29,7 @@ class CsvTable {
  public:
   explicit CsvTable(const std::vector<Cell>& header) { row(header); }
   void row(const std::vector<Cell>& cells);
-  // Whole or not at all.
+  // The file appears whole or not at all.
   [[nodiscard]] Outcome<void> write(const std::string& path) const;
 
  private:

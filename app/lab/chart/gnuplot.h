@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// Runs a script, which sees `arguments` as ARG1, ARG2, .., and answers what it has drawn. NotFound when gnuplot is not
-// on the PATH; else a failure names gnuplot's own last line.
+// Runs a script, which sees `arguments` as ARG1, ARG2, .., and returns its output. NotFound if gnuplot is not on the
+// PATH; other failures quote gnuplot's last line.
 [[nodiscard]] Outcome<std::string> runGnuplot(std::string_view script, const std::vector<std::string>& arguments);
 
 }  // namespace relievo

@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Runs every measurement of which a chart is missing in the folder, then writes FOLDER/index.html: each chart with its
-// title, its reading and a link to its figures; the machine and the day. A measurement that fails is told at the end,
-// the page is written over the others all the same.
+// Runs every measurement that lacks a chart in the folder, then writes FOLDER/index.html: each chart with its title,
+// its reading and a link to its figures; the machine and the day. Failed measurements are reported at the end; the page
+// is still written with the other charts.
 [[nodiscard]] Outcome<void> writeReport(const MeasureOptions& options);
 
 }  // namespace relievo

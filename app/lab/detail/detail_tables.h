@@ -22,21 +22,22 @@ inline constexpr std::array kDetails{
     DrawnLevel{.grid_step = 4},    DrawnLevel{.grid_step = 6},   DrawnLevel{.grid_step = 8},
     DrawnLevel{.grid_step = 12},
 };
-// Who feels the triangles: the player's method first, then its rivals.
+// The methods that feel the triangles: the player's first, then its rivals.
 inline constexpr std::array kDetailFeltBy{"relievo", "god-object", "god-object-smoothed"};
 inline constexpr std::array kDrawnDepths{&kDepthKinds[1], &kDepthKinds[2]};
-// What a coder smears, and what the grid of all samples stretches. Farther away a stretched triangle is a level's own.
+// Pixels this near to a silhouette are left out of `away`: a codec smears them, and the grid of all samples stretches
+// its triangles over them. A triangle stretched farther out is an error of the level.
 inline constexpr int kNearSilhouetteSamples = 3;
 
 struct DetailFigures {
   const DepthKind* depth = nullptr;
   DrawnLevel level;
-  double triangles = 0;              // of a picture, in the mean
-  double frame_ms = 0, draw_ms = 0;  // of a new picture; of the same once more
-  PictureError away, whole;          // from the grid of all samples
-  PictureError truth;                // from what the eyes would see
+  double triangles = 0;              // per picture, on average
+  double frame_ms = 0, draw_ms = 0;  // of a new picture; of the same drawn again
+  PictureError away, whole;          // against the grid of all samples
+  PictureError truth;                // against the ray-cast picture
   std::array<ForceError, kDetailFeltBy.size()> touch;
-  double touch_triangles = 0;  // of a picture of the film that is felt
+  double touch_triangles = 0;  // per picture of the film that is felt
 };
 
 [[nodiscard]] Outcome<void> writeDetail(std::span<const DetailFigures> figures, const std::string& path);

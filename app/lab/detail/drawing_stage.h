@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The player's renderer and the uniform grid on a display of the measurement's own, and what they have drawn.
+// The player's renderer and the uniform grid on a display of the measurement's own, and the pictures that they draw.
 #pragma once
 
 #include <memory>
@@ -14,16 +14,16 @@
 
 namespace relievo {
 
-// Side by side, as on a 3D screen, on the default volume. All verbs on one thread. One stage at a time on a display.
+// Side by side, as on a 3D screen, on the default volume. Use from one thread, one stage at a time on a display.
 class DrawingStage {
  public:
-  // Opens `display`, which outlives the stage and is closed with it.
+  // Opens `display`, which must outlive the stage and is closed with it.
   [[nodiscard]] static Outcome<std::unique_ptr<DrawingStage>> open(Display& display, int width, int height);
   ~DrawingStage();
 
-  // A new picture at a level of detail: takes it in and draws it. Answers how long both took.
+  // Uploads a new picture and draws it at a level of detail. Returns how long both took.
   [[nodiscard]] Outcome<Duration> show(const Frame& color, const Frame& depth, const DrawnLevel& level);
-  // Draws the same once more.
+  // Draws the same picture again.
   [[nodiscard]] Outcome<Duration> again();
   [[nodiscard]] DrawnPicture picture() const;
   // The triangles of the relief that was drawn last, including its silhouettes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief as it is drawn at a level of detail, made a depth picture again: what a finger would feel that felt the
-// same triangles as are seen.
+// Converts the triangles drawn at a level of detail back to a depth picture, so that a finger can feel the same
+// triangles that are seen.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ struct DrawnDepth {
   std::size_t triangles = 0;
 };
 
-// `field`, without holes, as it is drawn in `volume` at `level`, on views of `pixels_per_mm`. A cell that is cut
-// keeps the heights of its samples.
+// `field`, which must have no holes, as it is drawn in `volume` at `level`, on views of `pixels_per_mm`. A cell that is
+// cut at a silhouette keeps the heights of its samples.
 [[nodiscard]] DrawnDepth drawnDepth(const HeightField& field, const DisplayVolume& volume, const DrawnLevel& level,
                                     double pixels_per_mm);
 

@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// 8 bits a channel; row 0 is the top one. Alpha is not looked at.
+// 8 bits a channel; row 0 is the top one. Alpha is ignored.
 struct DrawnPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene of silhouettes as a film of colour and depth, and as two eyes would see it in truth.
+// The silhouette scene as a film of colour and depth, and as a ray-cast picture for each eye.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct SilhouetteFilm {
   // 8 bits, linear, near high, full range: DepthCalibration{}.
   [[nodiscard]] static Frame depth(int index);
   [[nodiscard]] static Frame color(int index);
-  // Cast line by line, on all processors: `finer` squared of them to a pixel.
+  // Ray cast on all processors, with `finer` squared rays for each pixel.
   [[nodiscard]] static DrawnPicture seen(int index, const EyeViews& eyes, int width, int height, int finer);
 
   // A picture to draw on the depth: white, but red within `reach` samples, across or down, of two neighbours whose

@@ -15,10 +15,10 @@
 
 namespace relievo {
 
-// The GPU displaces the vertices by the codes: they stand on true samples at their place in the volume, and cells are
-// split from (c, r) to (c + 1, r + 1). It is one piece, as it is to the finger: at a jump of depth a steep wall joins
-// both sides. For the eye alone it is joined to a frame, the picture's rectangle in the screen plane, so that no gap is
-// seen beside it. All verbs on the thread of the display's GL context.
+// The GPU displaces the vertices by the codes: each stands on a sample at its place in the volume, and cells are split
+// from (c, r) to (c + 1, r + 1). The grid is one piece, as the finger feels it: at a jump of depth a steep wall joins
+// both sides. Only for the eye, it is joined to a frame, the picture's rectangle in the screen plane, so that no gap is
+// seen beside it. Use on the thread of the display's GL context.
 class UniformGrid {
  public:
   // Samples 0, step, 2 step, .. and the last one.
@@ -26,7 +26,8 @@ class UniformGrid {
 
   [[nodiscard]] static Result<UniformGrid> create();
 
-  // Uploads a pair. The depth is 8 bits as DepthCalibration{} reads them, Unsupported otherwise; a hole is none here.
+  // Uploads a pair. The depth must be 8 bits as DepthCalibration{} reads them, else Unsupported. Holes are not
+  // recognised.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DisplayVolume& volume);
   // Draws the pair, and waits until it is drawn, on every `step`-th sample and the last one of each row and column.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const StereoSettings& stereo, int step);
