@@ -21,7 +21,7 @@ struct CodedDepth {
 // codec, bits, crf and tuning; the other settings come from the frames. InvalidArgument if there are no frames, if they
 // are not gray or 4:2:0 frames of one size with that bit depth, or if their timestamps do not increase.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, VideoEncoder::Settings settings);
-// As an encoder that is not tuned for touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
+// The same with an encoder that is not tuned for touch: H.264, 8 bits; crf 0 is lossless, 51 the coarsest.
 [[nodiscard]] Result<CodedDepth> codeDepth(std::span<const Frame> frames, int crf);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rendered film in memory, and a run of a method of touch through it on virtual time, with the truth beside it.
+// A rendered film in memory, and runs of a touch method through it on virtual time, with the true contact beside it.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,8 @@ struct DepthKind {
   std::optional<int> crf;  // through H.264; 8 bits only
 };
 
-// Every frame that a window from `from_s` to `until_s` asks for, with its shots marked, and the windows themselves,
-// made ahead, so that a run does nothing between its ticks but show the next one. Immutable; one film serves any number
-// of runs.
+// Every frame that a window from `from_s` to `until_s` needs, with its shots marked. The windows are made in advance,
+// so that a run only selects the next one between its ticks. Immutable; one film serves any number of runs.
 class MemoryFilm {
  public:
   struct Format {
@@ -38,16 +37,16 @@ class MemoryFilm {
   // Rendered on all processors.
   [[nodiscard]] static Result<MemoryFilm> make(const TrueSurface& surface, const Format& format, double from_s,
                                                double until_s);
-  // Of pictures at hand, of the volume of the true surfaces.
+  // From existing pictures, in the volume of the true surfaces.
   [[nodiscard]] static Result<MemoryFilm> of(std::span<const Frame> pictures, const DepthCalibration& calibration);
 
   [[nodiscard]] std::span<const TimedSurface> frames() const { return frames_; }
-  // The window while the frame of that index is the present one.
+  // The window in which the frame of that index is the present one.
   [[nodiscard]] const SurfaceWindow& windowAt(std::size_t frame) const { return windows_[frame]; }
 
  private:
   std::vector<TimedSurface> frames_;
-  std::vector<SurfaceWindow> windows_;  // as many
+  std::vector<SurfaceWindow> windows_;  // one for each frame
 };
 
 struct PlayedTick {
@@ -55,16 +54,17 @@ struct PlayedTick {
   glm::dvec3 hip_mm{0};
   Touch touch;
   TrueTouch truth;
-  // By the monotonic clock, its own cost not taken off; the prefetch, before the position is known, counts as upkeep.
+  // Measured by the monotonic clock, including the cost of reading it. The prefetch before the position is known counts
+  // as upkeep.
   Duration update{0}, upkeep{0};
 };
 
 // One method on one film, tick by tick, with the player's frames in the window. Times must not go back. `film` and
-// `method` outlive it; the method is reset.
+// `method` must outlive it; the method is reset.
 class FilmRun {
  public:
   FilmRun(const MemoryFilm& film, TouchMethod& method);
-  // `truth` is left to the caller.
+  // The caller fills in `truth`.
   [[nodiscard]] PlayedTick tick(const HipTick& hip);
 
  private:
@@ -74,9 +74,9 @@ class FilmRun {
   std::size_t present_ = 0;
 };
 
-// The oracle along a path, which begins outside the solid.
+// The oracle's answers along a path, which begins outside the solid.
 [[nodiscard]] std::vector<TrueTouch> truthAlong(const TrueSurface& surface, std::span<const HipTick> path);
-// A whole path; `truth` is as long as `path`.
+// Plays a whole path; `truth` is as long as `path`.
 [[nodiscard]] std::vector<PlayedTick> playPath(const MemoryFilm& film, TouchMethod& method,
                                                std::span<const HipTick> path, std::span<const TrueTouch> truth);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film as a camera sends it: every frame some time after it was taken, felt at an age that follows how late they are.
+// A film as a camera sends it: each frame arrives some time after it was taken, and the surface's age follows from
+// that.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +14,23 @@
 
 namespace relievo {
 
-// How late a camera's frames come: `least` and up to `jitter` to either side of the middle, evenly spread.
+// The delay of a camera's frames: evenly distributed from `least` to `least` + 2 `jitter`.
 struct CameraDelay {
   Duration least = std::chrono::milliseconds(2);
   Duration jitter = std::chrono::milliseconds(5);
   std::uint64_t seed = 1;
 };
 
-// One method on one film, tick by tick from the film's first frame on, on virtual time. `film` and `method` outlive it;
-// the method is reset.
+// One method on one film, tick by tick from the film's first frame on, on virtual time. `film` and `method` must
+// outlive it; the method is reset.
 class LiveRun {
  public:
   LiveRun(const MemoryFilm& film, TouchMethod& method, const LookAhead& ahead, const CameraDelay& delay);
 
-  // `hip.t_s` is the present moment; the surface is that of an earlier one (`feltS`). `truth` is left to the caller.
+  // `hip.t_s` is the present moment; the surface is that of an earlier one (`feltS`). The caller fills in `truth`.
   [[nodiscard]] PlayedTick tick(const HipTick& hip);
-  // The moment of the surface that was felt in the last tick. If the frame that it waits for has not come, the time of
-  // the newest one, carried forward.
+  // The moment of the surface that was felt in the last tick. If the awaited frame has not arrived, it is the time of
+  // the newest frame, from which the surface was extrapolated.
   [[nodiscard]] double feltS() const { return felt_s_; }
   [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }
 
@@ -40,7 +41,7 @@ class LiveRun {
   const MemoryFilm& film_;
   TouchMethod& method_;
   LookAhead ahead_;
-  std::vector<double> there_s_;  // when each frame has come
+  std::vector<double> there_s_;  // arrival time of each frame
   MemoryFeed feed_;
   SurfaceWindow window_;
   Arrivals arrivals_;

@@ -25,7 +25,7 @@ struct MadeFormat {
   int bits = 16;
   double noise_share = 0;  // standard deviation of the noise of every sample, as a share of full scale
   std::uint64_t seed = 1;
-  bool zero_is_hole = false;  // code 0, which only `Damage` makes of a relief above the far plane
+  bool zero_is_hole = false;  // code 0 is a hole; a relief above the far plane has it only where `Damage` sets it
 };
 
 // Alters the codes of a frame before it is used: row by row, `kCols` wide.
@@ -35,7 +35,7 @@ using Damage = std::function<void(int frame, std::vector<std::uint16_t>& codes)>
 [[nodiscard]] std::vector<TimedSurface> makeFilm(const Relief& relief, const MadeFormat& format, double duration_s,
                                                  const Damage& damage = {});
 
-// A film that is made at the first call and then kept, for all who ask for it, from any thread.
+// A film that is made at the first call and then kept for all callers, on any thread.
 class KeptFilm {
  public:
   // As makeFilm. Only the duration may differ from call to call.

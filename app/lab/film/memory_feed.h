@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands the frames of a film in memory to the haptic side as a player does, and as one does that is in trouble.
+// Feeds the frames of a film in memory to the haptic side as the player does, including late and missing frames.
 #pragma once
 
 #include <cstddef>
@@ -13,19 +13,18 @@
 
 namespace relievo {
 
-// A frame that comes late takes its place in the order of time; one that the present moment has left behind is not
-// seen.
+// A late frame is inserted by its time; one that lies before the window is dropped.
 class MemoryFeed {
  public:
-  // Whether a frame of the film can be had, at a time of the machine; nothing: all of them, always.
+  // Whether a frame of the film is available at a machine time; empty: all of them, always.
   using Supply = std::function<bool(std::size_t frame, double machine_s)>;
 
-  // `film`, in ascending order of time, outlives it.
+  // `film`, in ascending order of time, must outlive it.
   explicit MemoryFeed(std::span<const TimedSurface> film, Supply supply = {})
       : film_(film), supply_(std::move(supply)) {}
 
-  // The frames around `now`; true when they are not those of the last call: then `window` holds them. A new epoch
-  // forgets what was there.
+  // Puts the frames around `now` into `window` and returns true if they differ from those of the last call. A new epoch
+  // forgets all frames.
   [[nodiscard]] bool update(MediaTime now, double machine_s, std::uint32_t epoch, SurfaceWindow& window);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of two views of a true surface, painted, and the depth that a matcher's disparities mean in it.
+// Renders a stereo film of a textured true surface, and converts a matcher's disparities in it to depth.
 #pragma once
 
 #include <functional>
@@ -22,21 +22,21 @@ struct ViewFilmFormat {
   static constexpr double kBehind = 1.0 / 3;  // of the reach: the far plane lies behind the screen
 
   [[nodiscard]] int rows() const;
-  // In widths of a view, of a height; and the other way round.
+  // The disparity of a height, in widths of a view, and its inverse.
   [[nodiscard]] double disparityOf(double height_mm) const;
   [[nodiscard]] double heightOf(double disparity) const;
 };
 
-// 4:2:0 pictures whose right view is that of the exact disparity of each pixel; each eye's camera has a grain of its
-// own, which changes from picture to picture. The paint stays where it is in the left view: a surface that moves to the
-// viewer alone moves with it.
+// 4:2:0 pictures; the right view is rendered with the exact disparity of each pixel. Each eye's camera has a noise of
+// its own, which changes from picture to picture. The texture is fixed to the left view, so it moves with the surface
+// only if that moves straight toward the viewer.
 struct ViewFilm {
   std::vector<Frame> left, right;
 
   [[nodiscard]] static Result<ViewFilm> make(const TrueSurface& surface, const ViewFilmFormat& format, int count);
 };
 
-// 16 bits, linear, near high, full range, of the volume; `disparity(i)` of the pixel i, in widths of a view.
+// 16 bits, linear, near high, full range, in the volume; `disparity(i)` is that of pixel i, in widths of a view.
 [[nodiscard]] Frame depthOfDisparity(const ViewFilmFormat& format, int cols, int rows, MediaTime time,
                                      const std::function<double(std::size_t i)>& disparity);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device in a hand: mass, friction, encoder, amplifier and delay of the one; spring, damper and mass of the other.
+// A device held by a hand. The device has mass, friction, encoder, amplifier and delay; the hand spring, damper and
+// mass.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace relievo {
 
-// The device alone, without dry friction and an encoder, pushed by a steady force: what the theory's bounds are about.
+// The device alone, without dry friction and encoder, pushed by a constant force: the case of the theoretical bounds.
 [[nodiscard]] DeviceProfile deviceAlone(int delay_ticks);
 
 // Ignores the profile's forces, workspace and jitter: the paths of the methods stay within them.
@@ -19,10 +20,10 @@ class HandLoop {
  public:
   HandLoop(const DeviceProfile& profile, const glm::dvec3& position_mm);
 
-  [[nodiscard]] glm::dvec3 encoded() const;  // what the device says
+  [[nodiscard]] glm::dvec3 encoded() const;  // the position that the device reports
   [[nodiscard]] const glm::dvec3& position() const { return mass_.position_mm; }
-  // One tick: `written_n` goes into the delay and what comes out of it is held; the hand pulls to `target_mm`, and
-  // pushes with `push_n` besides.
+  // One tick: `written_n` enters the delay, and the force that leaves it is held; the hand pulls to `target_mm` and
+  // adds `push_n`.
   void tick(const glm::dvec3& written_n, const glm::dvec3& target_mm, const glm::dvec3& push_n = glm::dvec3(0));
 
  private:

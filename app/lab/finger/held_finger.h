@@ -12,8 +12,8 @@
 namespace relievo {
 
 enum class FingerHold : std::uint8_t {
-  FixedPoint,   // 5 mm deep on average, whatever the surface does
-  RestingHand,  // drawn to a point 8 mm deep on average, so that it presses 3 mm deep and gives way
+  FixedPoint,   // 5 mm deep on average, wherever the surface moves
+  RestingHand,  // pulled to a point 8 mm deep on average, so that it presses 3 mm deep and yields
 };
 
 struct HoldPlan {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic task itself on virtual time, with a device that says what it is told and a film in memory.
+// Runs the haptic task itself on virtual time, with a device whose position the caller sets, and a film in memory.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@
 namespace relievo {
 
 struct StageTick {
-  double t_s = 0;        // of the machine, from the beginning
+  double t_s = 0;        // machine time from the beginning
   double elapsed_s = 0;  // since the tick before
   MediaTime media;
-  glm::dvec3 hip_mm{0};    // as the device says
+  glm::dvec3 hip_mm{0};    // as the device reports it
   Touch asked;             // by the method
-  glm::dvec3 sent_n{0};    // after the limits; of a failed exchange: what the device holds
+  glm::dvec3 sent_n{0};    // after the limits; after a failed exchange: the force that the device holds
   bool exchanged = false;  // the device answered
 };
 
@@ -35,13 +35,13 @@ class TouchStage {
     SafetyLimits limits;
   };
 
-  // `method` outlives it, and is reset.
+  // `method` must outlive it, and is reset.
   TouchStage(TouchMethod& method, const Options& options);
   ~TouchStage();
 
-  // The film stands at `media` now and runs at `rate`; `window`: its frames, when they are others than before.
+  // From now on the film is at `media` and runs at `rate`. `window`: its new frames; null: unchanged.
   void show(MediaTime media, double rate, const SurfaceWindow* window);
-  // The next tick, `ticks` after the last one. No position: the exchange fails.
+  // Runs the next tick, `ticks` after the last one. Without a position the exchange fails.
   StageTick tick(const std::optional<glm::dvec3>& hip_mm, int ticks = 1);
   [[nodiscard]] double now() const { return now_s_; }
 
@@ -58,15 +58,15 @@ class TouchStage {
   double now_s_ = 0;
 };
 
-// A whole play of a film under a finger.
+// A whole run of a film under a finger.
 struct Play {
   std::span<const TimedSurface> film;
   double duration_s = 1;
   double stiffness_n_per_mm = 0.5;
   double peak_force_n = 10;
-  // Where the device says that the finger is, given the force that it holds; nothing: the exchange fails.
+  // The finger's position that the device reports, given the force that it applies; nullopt: the exchange fails.
   std::function<std::optional<glm::dvec3>(double t_s, const glm::dvec3& held_n)> finger;
-  // Which moment of the film is felt at the machine's time; by default the film plays from 0 on.
+  // The film's position at a machine time; by default the film plays from 0 on.
   struct Moment {
     double media_s = 0;
     double rate = 1;
