@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each contender's force is from the true one, over scenes and kinds of depth.
+// How far each contender's force is from the true one, by scene and kind of depth.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 namespace relievo {
 
 inline constexpr double kStiffnessNPerMm = MethodConfig{}.stiffness_n_per_mm;
-inline constexpr double kSettledS = 0.3;  // from the begin of a path: the finger is in
+inline constexpr double kSettledS = 0.3;  // after this part of a path the finger is in contact
 
 inline constexpr std::array kDepthKinds{
     DepthKind{"16-bit", 16, 0, {}},
@@ -30,7 +30,7 @@ inline constexpr const DepthKind& kEightBits = kDepthKinds[1];
 // Sums the errors of the ticks from `from_s` on.
 [[nodiscard]] ForceErrorSum forceErrors(std::span<const PlayedTick> ticks, double from_s);
 
-// The smooth scenes on which stiffness x |dS/dt| stays under the scene's slew limit of 50 N/s: faster ones are not
+// The smooth scenes in which stiffness x |dS/dt| stays below the scene's slew limit of 50 N/s: faster scenes are not
 // judged by their force.
 [[nodiscard]] std::vector<std::string_view> accuracyScenes();
 

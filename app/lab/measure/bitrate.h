@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What depth costs on the line, and what the coding of it does to the force.
+// The bit rate of coded depth, and the error in the force that the coding causes.
 #pragma once
 
 #include "app/lab/measure/measurement.h"
 
 namespace relievo {
 
-// Leaves bitrate.csv, a row for each codec, number of bits, kind of steps and crf, over all scenes:
+// Writes bitrate.csv, a row for each codec, number of bits, kind of steps and crf, over all scenes:
 //
 // - `kbit_s`: the depth's, 720x486 at 30 frames/s, as relievo-author codes it.
 // - `force_rms`: error of relievo's force against the oracle, finger 5 mm deep at 0.1 m/s.
@@ -15,7 +15,7 @@ namespace relievo {
 // - `steps`: even; "disparity": by the inverse law, far four times as far as near; "dithered": even, with an ordered
 //   pattern of half a step either way before they are rounded; "hue", "hue-disparity", "turbo": in colours, 4:2:0, as
 //   recorders paint depth. A hole has no height error.
-// A quick run is of one scene and few qualities.
+// A quick run uses one scene and few qualities.
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is measured against whom: methods and the parts that they can be made of, with their names on the charts.
+// The contenders of the measurements: methods and the parts that they are made of, with their names on the charts.
 #pragma once
 
 #include <limits>
@@ -13,8 +13,8 @@
 
 namespace relievo {
 
-// What a contender is made of on a film; widths are those of relievo's smooth surface, and that of depth smoothed per
-// frame is `wide_mm`.
+// The parts of a contender on a film. The widths are those of relievo's smooth surface; for depth smoothed per frame
+// the width is `wide_mm`.
 struct ContenderParts {
   const char* space = "";
   const char* time = "";  // of the wide level
@@ -26,11 +26,11 @@ struct Contender {
   const char* label;  // on a chart
   const char* method;
   MethodConfig config;        // without the jump threshold: the guard would hide what is measured
-  bool planned = false;       // on the scale that the plan picks for the film, as the player does
+  bool planned = false;       // uses the widths that the plan picks for the film, as the player does
   bool fixed_choice = false;  // one part swapped
   bool smoothed = false;      // on depth smoothed per frame (FilmViews)
 
-  // `film` as it is, whatever the contender feels of it.
+  // `film` is the unsmoothed film, also for a contender that feels a smoothed one.
   [[nodiscard]] std::unique_ptr<TouchMethod> make(const MemoryFilm& film) const;
   [[nodiscard]] ContenderParts parts(const MemoryFilm& film) const;
 };
@@ -50,14 +50,14 @@ class FilmViews {
   MemoryFilm smoothed_;
 };
 
-// One contender along a whole path.
+// Plays one contender along a whole path.
 [[nodiscard]] std::vector<PlayedTick> playPath(const FilmViews& film, const Contender& who,
                                                std::span<const HipTick> path, std::span<const TrueTouch> truth);
 
 // The methods as they are, `relievo` first; then the same with one part swapped. Those on Bullet's height field are
-// left out where relievo-lab was built without that library.
+// missing if relievo-lab was built without that library.
 [[nodiscard]] std::span<const Contender> contenders();
-// Null for a label that is not known.
+// Null for an unknown label.
 [[nodiscard]] const Contender* contender(std::string_view label);
 
 }  // namespace relievo

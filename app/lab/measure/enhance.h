@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What enhancement does for touch: force, edges and points of a mesh, on surfaces of known shape that a camera has
-// seen.
+// The effect of enhancement on touch: force, edges and mesh points, on surfaces of known shape as a camera would see
+// them.
 #pragma once
 
 #include <vector>

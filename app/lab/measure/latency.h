@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How old the felt surface of a live film is, and how exact its force, by the number of frames that it waits for.
+// The age of a live film's felt surface and the error of its force, by the number of frames that it waits for.
 #pragma once
 
 #include <vector>

@@ -14,7 +14,7 @@
 namespace relievo {
 
 inline constexpr const char* kTimedScene = "face-nodding";
-inline constexpr const char* kAllScenes = "all";  // put together
+inline constexpr const char* kAllScenes = "all";  // all scenes put together
 inline constexpr double kSlowMPerS = 0.1;
 
 struct PictureSize {
@@ -33,9 +33,9 @@ struct SpeedAccuracyRow {
   std::optional<ForceError> error;
   std::optional<TickTimes> times;
 
-  // What was measured is the same, whatever it came to.
+  // True if both rows measured the same thing, whatever the figures.
   [[nodiscard]] bool sameKind(const SpeedAccuracyRow& other) const;
-  // It is one of the rows in which the scenes are compared, not one of those in which times are.
+  // True for a row that compares scenes, false for one that compares times.
   [[nodiscard]] bool isAccuracy() const {
     return sameKind(SpeedAccuracyRow{.who = who, .depth = depth, .scene = scene});
   }
@@ -43,9 +43,9 @@ struct SpeedAccuracyRow {
 
 struct SpeedAccuracyFigures {
   std::vector<SpeedAccuracyRow> rows;  // no two of the same kind
-  int clock_ns = 0;                    // what a reading of the clock costs; taken off
+  int clock_ns = 0;                    // the cost of one clock reading, which was subtracted
 
-  // The row of a kind; null when it was not measured.
+  // The row of this kind; null if it was not measured.
   [[nodiscard]] SpeedAccuracyRow* find(const SpeedAccuracyRow& kind);
   [[nodiscard]] const SpeedAccuracyRow* find(const SpeedAccuracyRow& kind) const;
 };

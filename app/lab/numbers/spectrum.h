@@ -16,7 +16,7 @@ namespace relievo {
 // over all k times the step in frequency is the signal's variance.
 class Spectrum {
  public:
-  // Exhausted when there is no memory. FFTW plans on one thread at a time: make it there.
+  // Exhausted if out of memory. FFTW plans only on one thread at a time: call it from one thread.
   [[nodiscard]] static Result<Spectrum> make(std::size_t length, double dt_s);
   Spectrum(Spectrum&&) noexcept;
   Spectrum& operator=(Spectrum&&) noexcept;
@@ -34,7 +34,7 @@ class Spectrum {
   std::unique_ptr<State> state_;
 };
 
-// dB of a density, with 1 unit^2/Hz as 0 dB and nothing as -300.
+// dB of a density, relative to 1 unit^2/Hz; -300 for zero.
 [[nodiscard]] double toDecibel(double density);
 
 }  // namespace relievo

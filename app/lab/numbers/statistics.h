@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of many ticks: how far a force is from the true one, and how times are spread.
+// Statistics over many ticks: the error of a force, and the spread of times.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace relievo {
 
 struct ForceError {
-  double rms_n = 0;              // of the difference of the force vectors
-  double rms_percent = 0;        // the same, of the true force's rms
-  double direction_rms_deg = 0;  // over the ticks in which both forces are there
+  double rms_n = 0;              // of the force vectors' difference
+  double rms_percent = 0;        // the same, relative to the true force's rms
+  double direction_rms_deg = 0;  // over the ticks in which both forces are nonzero
   double magnitude_rms_percent = 0;
-  std::size_t ticks = 0, lost_ticks = 0;  // lost: contact in truth and none by the method
+  std::size_t ticks = 0, lost_ticks = 0;  // lost: true contact, but none by the method
 
-  // In more than a hundredth of the ticks: the error is that of no force, not of a wrong one.
+  // True if contact is lost in more than a hundredth of the ticks: the error is then that of a missing force.
   [[nodiscard]] bool contactLost() const { return lost_ticks > ticks / 100; }
 };
 

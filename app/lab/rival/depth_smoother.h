@@ -41,7 +41,7 @@ class DepthSmoother {
   };
 
  private:
-  // One direction: how many samples go into one, how many are left, and the kernel from its centre outwards.
+  // One direction: how many samples are averaged into one, how many remain, and the kernel from its centre outwards.
   struct Axis {
     Axis(int samples, double pitch_mm, double sigma_mm, Order order);
     int factor = 1, size = 0;
