@@ -13,14 +13,14 @@ namespace relievo {
 struct Limit {
   double value = 0;
   const char* unit = "";
-  // Why this value: "derived: ..", "cited: .." or, for a value that was picked to tell methods apart, "chosen: ..".
-  // Without a comma, since it is a cell of a CSV.
+  // Why the limit has this value: "derived: ..", "cited: ..", or "chosen: .." for a value that was picked to tell
+  // methods apart. Without a comma, since it is a cell of a CSV.
   const char* origin = "";
 };
 
 struct Verdict {
   bool pass = true;
-  double figure = 0;  // what decided
+  double figure = 0;  // the figure that decided
   Limit limit;
   std::string why;  // what the figure is, one line
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the default method fares in all scenarios on surfaces with friction, and on softer and stiffer ones.
+// The default method in all scenarios on surfaces with friction, and on softer and stiffer ones.
 #pragma once
 
 #include "app/lab/measure/measurement.h"

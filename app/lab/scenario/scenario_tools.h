@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the scenarios share: ways of a finger, and what is read off a play.
+// Shared by the scenarios: paths of a finger, and figures of a run.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,7 +13,7 @@
 
 namespace relievo::scenario {
 
-// Straight and steady from one point to the next; at rest before the first and after the last.
+// A straight path at constant speed from one point to the next; at rest before the first and after the last.
 class Way {
  public:
   struct Point {
@@ -22,7 +22,7 @@ class Way {
   };
   Way(std::initializer_list<Point> points) : points_(points) {}
   [[nodiscard]] glm::dvec3 at(double t_s) const;
-  // As the finger of a play.
+  // As the finger of a TouchStage run.
   [[nodiscard]] std::optional<glm::dvec3> operator()(double t_s, const glm::dvec3& /*held_n*/) const { return at(t_s); }
 
  private:
@@ -37,7 +37,7 @@ inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // 
 }
 
 [[nodiscard]] Relief plane(double z_mm, double slope_x, double slope_y);
-// Goes steadily from 0 at `from_s` to 1 at `until_s`.
+// Rises linearly from 0 at `from_s` to 1 at `until_s`.
 [[nodiscard]] double ramp(double t_s, double from_s, double until_s);
 // Outward unit normal.
 [[nodiscard]] glm::dvec3 normalOf(const Relief& relief, double x_mm, double y_mm, double t_s);
@@ -51,10 +51,10 @@ inline constexpr double kEdgeSlant = 0.3, kEdgeLength = 1.0440306508910550;  // 
 [[nodiscard]] double peakForce(std::span<const StageTick> ticks);
 // |measured - true|/|true|, in %.
 [[nodiscard]] double percentOff(const glm::dvec3& measured, const glm::dvec3& truth);
-// Not a number when one of them is 0.
+// NaN if one of them is 0.
 [[nodiscard]] double degreesBetween(const glm::dvec3& a, const glm::dvec3& b);
-// The longest time with the finger more than `deep_mm` below the relief, as it is at that moment of the film, and no
-// contact by the method or hardly any force, ms.
+// The longest time, ms, in which the finger is more than `deep_mm` below the relief of that moment and the method has
+// no contact or hardly any force.
 [[nodiscard]] double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep_mm,
                                    double stiffness_n_per_mm);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The places where methods of touch are known to fail, each a small film and a finger, with a verdict.
+// Situations in which touch methods are known to fail, each a short film and a finger, with a verdict.
 #pragma once
 
 #include <functional>
@@ -13,16 +13,16 @@
 
 namespace relievo {
 
-// Who is judged: makes a fresh method for a film.
+// A method to be judged: makes a fresh instance for a film.
 struct Challenger {
   std::string name;
   std::function<std::unique_ptr<TouchMethod>(double stiffness_n_per_mm, std::span<const TimedSurface> film)> make;
-  double stiffness_n_per_mm = 0.5;  // that the task has, and that `make` is given; not in `stiff-wall`
+  double stiffness_n_per_mm = 0.5;  // the task's stiffness, also passed to `make`; `stiff-wall` uses its own
 };
-// A method as the player makes it: `relievo` on the scale that its plan picks when the film begins; `god-object`, and
-// `god-object-smoothed` on every frame blurred by the width that suits the film best (blurWidthMm).
+// A method as the player makes it: `relievo` with the widths that its plan picks when the film begins; `god-object`,
+// and `god-object-smoothed` on frames blurred by the width that suits the film best (blurWidthMm).
 [[nodiscard]] Challenger challengerNamed(const std::string& method);
-// `relievo` on a film of this material.
+// `relievo` on a film with this material.
 [[nodiscard]] Challenger challengerMadeOf(const Material& material);
 
 // The method runs in the haptic task itself, with all its limits, on virtual time: the same verdict at every run.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map of stability: every method in every scenario; and where closed loops begin to swing, beside theory.
+// The stability map: every method in every scenario; and the stiffness from which closed loops swing, beside theory.
 #pragma once
 
 #include <vector>

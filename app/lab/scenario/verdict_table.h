@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs challengers through all scenarios and writes their verdicts down.
+// Runs challengers through all scenarios and writes their verdicts.
 #pragma once
 
 #include <span>

@@ -15,12 +15,12 @@
 namespace relievo {
 
 struct DepthFilmOptions {
-  SourceOptions source;                 // a source of one plain video track is depth; else as the player reads it
-  std::optional<DisplayVolume> volume;  // nothing: the default one, its height from the picture's shape
-  std::optional<double> frames_per_s;   // for sources without timestamps; nothing: the source's own times
+  SourceOptions source;  // a single plain video track is read as depth; anything else as the player reads it
+  std::optional<DisplayVolume> volume;  // nullopt: the default one, its height from the picture's shape
+  std::optional<double> frames_per_s;   // for sources without timestamps; nullopt: the source's own times
 };
 
-// Reads ahead as far as a window goes and forgets what lies behind it, so that a film of any length fits.
+// Reads ahead as far as a window reaches and drops what lies behind it, so that a film of any length fits into memory.
 class DepthFilm {
  public:
   DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options);

@@ -23,7 +23,7 @@ struct TraceOptions {
   std::string hip_path;
   std::string out_path;
   std::string method = kDefaultMethod;
-  std::optional<double> stiffness_n_per_mm;  // nothing: the material's, else 0.5
+  std::optional<double> stiffness_n_per_mm;  // nullopt: the material's, else 0.5
   std::optional<SpaceLaw> space;
   std::optional<TimeLaw> time;
   TraceGuard guard = TraceGuard::Own;

@@ -15,17 +15,16 @@ struct TrueTouch {
   bool contact = false;
 };
 
-// Between two calls the finger goes straight and steadily, and the surface moves as its formula says.
+// Between two calls the finger moves straight and at constant speed, and the surface moves by its formula.
 // - A free finger comes into contact where it goes through the surface, or the surface through it, from outside.
-// - In contact the proxy slides downhill in distance, without a jump where there need be none, to the local minimum
-//   that it can reach from where it was: within 1e-12 mm on a smooth sheet, exactly on a step's floors, wall and edges.
+// - In contact the proxy slides so that its distance to the finger falls, without unneeded jumps, to the local minimum
+//   that it can reach from its position: within 1e-12 mm on a smooth sheet, exactly on a step's floors, wall and edges.
 // - Contact ends when the finger is outside: z >= S at its own x, y and time.
-// - A finger that begins inside, or that a cut puts inside, is free until it has been outside: a cut makes everything
-//   new.
-// It takes nothing from app/haptics, so that no mistake is on both sides of a comparison.
+// - A finger that begins inside, or that a cut puts inside, is free until it has been outside: a cut resets all state.
+// It shares no code with app/haptics, so that one mistake cannot be on both sides of a comparison.
 class Oracle {
  public:
-  // `surface` outlives it.
+  // `surface` must outlive it.
   explicit Oracle(const TrueSurface& surface) : surface_(surface) {}
 
   // Times must not go back.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Things before one another, known whole: what is hidden from the front an eye beside it sees.
+// A scene of overlapping objects that are known completely: each eye sees parts that are hidden from the front.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,24 @@
 
 namespace relievo {
 
-// A mask nods before a wall that is level at the left and a pleated curtain at the right, a ball flies past it, a rod
-// leans over both. Each is a sheet with a free rim: between two of them is nothing. On the default volume of a picture
-// of 720x486, at most 60 mm/s. Colours have patterns of 2.6 mm and more, so that a picture of 720 columns holds them.
+// A mask nods in front of a wall that is level at the left and a pleated curtain at the right; a ball flies past it,
+// and a rod leans over both. Each object is a sheet with a free rim: there is nothing between two of them. In the
+// default volume of a picture of 720x486, at most 60 mm/s. Colours have patterns of 2.6 mm and more, which a picture of
+// 720 columns can show.
 class SilhouetteScene {
  public:
   explicit SilhouetteScene(double t_s);
 
-  // Of what is nearest, seen straight from the front.
+  // The height of the nearest object, seen straight from the front.
   [[nodiscard]] double height(double x_mm, double y_mm) const;
   [[nodiscard]] glm::dvec3 color(double x_mm, double y_mm) const;  // 0 to 255
-  // Of what a line of sight from `front`, before everything, to `back` behind it meets first.
+  // The colour that a line of sight from `front`, in front of everything, to `back` behind it meets first.
   [[nodiscard]] glm::dvec3 colorAlong(const glm::dvec3& front, const glm::dvec3& back) const;
 
  private:
   enum Part : std::uint8_t { Wall, Mask, Ball, Rod, kParts };
 
-  // The sheets go on beyond their rims.
+  // The sheets are defined beyond their rims, too.
   [[nodiscard]] double heightOf(Part part, double x, double y) const;
   [[nodiscard]] bool covers(Part part, double x, double y) const;
   [[nodiscard]] Part nearest(double x, double y) const;

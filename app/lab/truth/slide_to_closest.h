@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Descent on a smooth true surface to the place where the distance from a point is a local minimum.
+// Descent on a smooth true surface to a local minimum of the distance from a point.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -9,9 +9,9 @@
 
 namespace relievo {
 
-// Slides from above `from` downhill in distance, in short steps that never lengthen it, to the first place where it
-// cannot fall any more. Stops when the next step is below `tolerance_mm` or is rounding alone (about 1e-13 mm). A
-// saddle is no end: from there it goes on to one side.
+// Starts above `from` and moves in short steps that never lengthen the distance, to the first place where it cannot
+// fall any more. Stops when the next step is below `tolerance_mm` or only rounding (about 1e-13 mm). From a saddle it
+// continues to one side.
 [[nodiscard]] glm::dvec2 slideToClosest(const TrueSurface& surface, double t_s, const glm::dvec3& point_mm,
                                         const glm::dvec2& from_mm, double tolerance_mm);
 

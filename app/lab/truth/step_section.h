@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A step in section across its wall: the exact geometry of two floors, two edges and a wall.
+// A step in section across its wall: exact geometry of two floors, two edges and a wall.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,8 +14,8 @@ struct StepSection {
   [[nodiscard]] bool inside(const glm::dvec2& point) const { return point.y < (point.x < 0 ? high_mm : low_mm); }
   // The place on floors and wall that is nearest to a point.
   [[nodiscard]] glm::dvec2 nearest(const glm::dvec2& point) const;
-  // Where a proxy that lies on floors or wall comes to rest when it slides downhill in distance from `finger`, which
-  // is inside the solid.
+  // The place where a proxy on floors or wall comes to rest if it slides so that its distance to `finger`, which is
+  // inside the solid, falls.
   [[nodiscard]] glm::dvec2 slide(const glm::dvec2& proxy, const glm::dvec2& finger) const;
 };
 

@@ -43,7 +43,7 @@ class TrueSurface {
     // Twice differentiable in space and time, and no convex place is tighter than 6 mm: what counts for accuracy.
     bool smooth = true;
     double max_speed_mm_per_s = 0;  // bound of |dS/dt| in the picture; with a wall: the wall's own speed
-    double duration_s = std::numeric_limits<double>::infinity();  // from then on it leaves the volume
+    double duration_s = std::numeric_limits<double>::infinity();  // after that it leaves the volume
   };
 
   explicit TrueSurface(const Traits& traits) : traits_(traits) {}
@@ -55,12 +55,12 @@ class TrueSurface {
   [[nodiscard]] virtual double height(double x_mm, double y_mm, double t_s) const = 0;
   // The heights at (x_mm[i], y_mm) at one moment, for whole pictures; `out` is as long as `x_mm`.
   virtual void heights(std::span<const double> x_mm, double y_mm, double t_s, std::span<double> out) const = 0;
-  // On a step the jet of the floor at that place; the wall's is in `wallAt`.
+  // On a step: the jet of the floor at that place; `wallAt` describes the wall.
   [[nodiscard]] virtual SurfaceJet jet(double x_mm, double y_mm, double t_s) const = 0;
-  // Set where the scene is a step and not one smooth sheet: its edges and its wall are not differentiable. A wall
-  // moves steadily along its normal.
+  // Set if the scene is a step and not one smooth sheet: its edges and its wall are not differentiable. A wall moves at
+  // constant speed along its normal.
   [[nodiscard]] virtual std::optional<StepWall> wallAt(double /*t_s*/) const { return std::nullopt; }
-  // Which shot the moment belongs to; between two of them the surface is another one.
+  // The shot that the moment belongs to; the surface changes from shot to shot.
   [[nodiscard]] virtual int shotAt(double /*t_s*/) const { return 0; }
 
  private:
