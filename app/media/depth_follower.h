@@ -27,7 +27,7 @@ class DepthFollower {
  public:
   struct Supplied {
     std::optional<Frame> frame;
-    bool ended = false;  // without a frame: true at the end of the track, false if none is available yet
+    bool ended = false;  // without a frame: true at the end of the track, false if no picture is available yet
   };
   using Supply = std::function<Result<Supplied>()>;
   struct Match {
@@ -38,9 +38,9 @@ class DepthFollower {
   // `supply` returns the track's pictures in order.
   explicit DepthFollower(Supply supply);
 
-  // In a live film a depth picture of the colour's own time is taken at once: the next one has yet to be captured.
+  // In a live film, a depth picture with the colour's own time is used at once: the next one has yet to be captured.
   void setLive(bool live) noexcept { live_ = live; }
-  // The depth for this colour time. Times must not decrease from call to call.
+  // Returns the depth for this colour time. Times must not decrease from call to call.
   [[nodiscard]] Result<Match> at(MediaTime color);
   // The picture that `at` would examine next, without consuming it; null if there is none.
   [[nodiscard]] Result<const Frame*> peek();

@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// 8-bit gray, full range: the nearer the brighter, holes black. Black as a whole if the depth cannot be read.
+// 8-bit gray, full range: the nearer the brighter, holes black. All black if the depth cannot be read.
 [[nodiscard]] Frame depthPicture(const Frame& depth, const DepthCalibration& calibration);
 
 }  // namespace relievo

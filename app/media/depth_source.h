@@ -58,7 +58,8 @@ class DepthSource {
 
   // The next picture in order. An error means that the source will not be retried.
   [[nodiscard]] Result<Given> next();
-  // As TrackReader::seek. A source that is read by a thread, or lost, is sought later: this does not wait for it.
+  // As TrackReader::seek. If a thread reads the source, or the source is lost, the seek is carried out later: this call
+  // does not wait.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step);
   void interrupt() noexcept;
 

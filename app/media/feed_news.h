@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What has happened to the sources and decoders of a film that is read ahead, until the player asks. Pure.
+// Events of the sources and decoders of a film that is read ahead, kept until the player asks for them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class FeedNews {
 
   void colorLost(const Error& error, MonotonicTime now) { items_.push_back({Kind::ColorLost, error.message, "", now}); }
   void colorBack(MonotonicTime now) { items_.push_back({Kind::ColorBack, "", "", now}); }
-  // Why the depth is away now; nullopt: it is there. Only a change is news.
+  // Sets why the depth is unavailable now; nullopt: it is available. Only a change is reported.
   void depth(const std::optional<Error>& loss, MonotonicTime now) {
     if (std::exchange(depth_away_, loss.has_value()) == loss.has_value()) return;
     items_.push_back({loss ? Kind::DepthLost : Kind::DepthBack, loss ? loss->message : "", "", now});
@@ -33,7 +33,7 @@ class FeedNews {
   void restarted(const VideoDecoder::Restart& restart, MonotonicTime now) {
     items_.push_back({Kind::DecoderRestarted, restart.why, restart.done, now});
   }
-  // In order, each once.
+  // The next event, in order, each once.
   [[nodiscard]] std::optional<Item> take() {
     if (items_.empty()) return std::nullopt;
     const Item first = items_.front();

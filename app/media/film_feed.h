@@ -51,7 +51,8 @@ class FilmFeed {
   FilmFeed(const FilmFeed&) = delete;
   FilmFeed& operator=(const FilmFeed&) = delete;
 
-  // Who hears of the depth of a live film as soon as it has been read, on the reader's side. Before `startThread`.
+  // Sets a callback for the depth of a live film, called on the reader's side as soon as it has been read. Call before
+  // `startThread`.
   void hearLive(std::function<void(const FramePair&)> hear) { hear_live_ = std::move(hear); }
   void startThread();
   // Interrupts any blocking read, ends the thread and closes the film. A second call does nothing.
@@ -65,12 +66,12 @@ class FilmFeed {
   // effect once the source is back); ignored in other states. `key_step` as in PairReader::seek.
   void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
-  // PairReader::leaveOut, before the next pair is read. Sound is then read ahead of late pictures.
+  // Like PairReader::leaveOut, before the next pair is read. Sound is then read ahead of late pictures.
   void leaveOut(bool unreferenced, std::optional<MediaTime> until = {});
   // How busy the reader is.
   struct Effort {
-    Duration rested{0};    // the time in which its thread had nothing to do, in all; without Backends::clock 0
-    bool decodes = false;  // it is at work now, and does not wait for the source
+    Duration rested{0};    // total time in which its thread had nothing to do; 0 without Backends::clock
+    bool decodes = false;  // it is working now, not waiting for the source
   };
   [[nodiscard]] Effort effort() const;
   // The next pair in order; nullopt if none is ready.
@@ -79,12 +80,11 @@ class FilmFeed {
   [[nodiscard]] std::size_t peekDepths(std::span<Frame> depths) const;
   // The next samples in order; nullopt if none are ready.
   [[nodiscard]] std::optional<AudioChunk> takeSound();
-  // The next subtitle that has been read; nullopt if there is none. After a seek some come again.
+  // The next subtitle that has been read; nullopt if there is none. After a seek some subtitles may be repeated.
   [[nodiscard]] std::optional<Subtitle> takeSubtitle();
-  // Other tracks, by their places in FilmInfo; follow it by a seek, so that what has been read of them is not missed.
+  // Chooses other tracks, by their places in FilmInfo. Seek afterwards, since what was read of them before is skipped.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
-  // True when no more sound before `time` is to be expected: it is queued, or the film's interleaving puts it too far
-  // ahead to read.
+  // True if no more sound before `time` will come: it is queued, or the container stores it too far ahead to be read.
   [[nodiscard]] bool hasSoundUntil(MediaTime time) const;
 
   // The films of the playlist, in state Listed.
@@ -133,7 +133,7 @@ class FilmFeed {
   std::function<void(const FramePair&)> hear_live_;
   mutable std::atomic<bool> interrupted_{false};  // stops the reading of a playlist
   mutable PairReader reader_;                     // used by the reader's side only, except `interrupt`
-  bool left_out_ = false;                         // likewise: what the reader was told last
+  bool left_out_ = false;                         // likewise: the last argument of the reader's leaveOut
 
   mutable std::mutex mutex_;  // guards everything below
   std::condition_variable wake_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of films as a list; pictures that a shell has listed as one film.
+// Lists the films of a folder, and recognises pictures that a shell has listed as one film.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace relievo {
 // The films in the folder `url`, in natural order; nullopt if it is not a folder or not a list of films (a recording
 // with a folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
 [[nodiscard]] std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url);
-// These files of `folder` as films, in natural order: one that holds another one's depth is part of that film.
+// These files of `folder` as films, in natural order: a file that holds another one's depth is part of that film.
 [[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);
 
 // A recording of a colour film and its depth in one folder: a folder of depth pictures, as iPhone scanners write them
@@ -22,8 +22,8 @@ namespace relievo {
 struct FilmOverDepth {
   std::string film, depth;  // paths, or a pattern
 };
-// nullopt if `folder` is none, has no depth or a folder of colour pictures too, or no film that by its name, or because
-// it is the only one, is the colour.
+// nullopt if `folder` is no folder, has no depth, has a folder of colour pictures too, or has no film that is the
+// colour by its name or because it is the only one.
 [[nodiscard]] std::optional<FilmOverDepth> filmOverDepth(const std::string& folder);
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
@@ -34,8 +34,8 @@ struct FilmOverDepth {
 // Whether the name of the file has the word depth in it, as "clip_depth.mp4"; the folder does not count.
 [[nodiscard]] bool saysDepth(const std::string& url);
 
-// The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder: what a shell has spread. nullopt
-// if they are fewer than two, or no such series.
+// The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder, as a shell has expanded it.
+// nullopt if they are fewer than two, or no such series.
 [[nodiscard]] std::optional<std::string> seriesOf(const std::vector<std::string>& sources);
 
 }  // namespace relievo

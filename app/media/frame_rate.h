@@ -19,8 +19,8 @@ struct FrameRate {
   [[nodiscard]] bool varies() const noexcept { return highest > 0; }
 };
 
-// `times`: of the first pictures, in any order; `whole`: of all of them. What the container states counts where the
-// timestamps show no other rate.
+// `times`: of the first pictures, in any order; `whole`: of all of them. The rate that the container states is used
+// unless the timestamps show another.
 [[nodiscard]] FrameRate frameRateOf(const StreamInfo& stream, std::vector<MediaTime> times, bool whole);
 
 // "29.97 frames a second", "30.6 frames a second on average, variable from 15 to 120", "one picture".

@@ -54,7 +54,7 @@ struct FramePair {
   Frame right;                         // of a stereo film: the right eye's picture, `color` being the left one's
   Frame material;                      // of the film's material track; empty: none at this time
   Duration delay{0};                   // live films: from being captured to being read
-  bool stands = false;                 // only the depth is new: the colour, which has just its time, was left out
+  bool stands = false;  // only the depth is new: the colour picture was left out, `color` has only its time
 };
 
 struct FilmInfo {
@@ -63,7 +63,7 @@ struct FilmInfo {
   int depth_width = 0, depth_height = 0;
   bool has_depth = false;
   bool depth_from_views = false;    // has_depth holds, but pairs have none: the player makes it from their views
-  Packing packing = Packing::Auto;  // the one found; Tracks if there is no depth
+  Packing packing = Packing::Auto;  // the packing that was found; Tracks if there is no depth
   Duration frame_period{0};         // the usual step between pictures (frame_rate.h); 0 for a single picture
   bool interlaced = false;          // the first pictures; they are deinterlaced
   std::uint8_t color_primaries = kUnspecifiedColor, color_transfer = kUnspecifiedColor;  // as in a Frame
@@ -73,7 +73,7 @@ struct FilmInfo {
   Material material;               // what --material says, else the depth's tags
   Material material_scale;         // of the material track, without the parts that --material states; empty: none
   FilmReading reading;             // how that calibration and the packing were found
-  std::vector<std::string> notes;  // what the sources found out about themselves; one line each
+  std::vector<std::string> notes;  // what the sources report about themselves; one line each
   std::string color_codec, depth_codec;
   std::string color_decoder, depth_decoder;  // VideoDecoder::description
   std::string sound_codec;                   // if sound was asked for and the film has some
@@ -155,19 +155,19 @@ class PairReader {
   [[nodiscard]] std::optional<AudioChunk> nextSound();
   // The next subtitle among the data already read; the film's times.
   [[nodiscard]] std::optional<Subtitle> nextSubtitle();
-  // Other tracks from now on, by their places in FilmInfo; nullopt for no subtitles. What has been read of them before
-  // is missed, until a seek. Sound that cannot be decoded is told in FilmInfo::sound_refused.
+  // Chooses other tracks from now on, by their places in FilmInfo; nullopt for no subtitles. Packets of them that were
+  // read before are skipped, until a seek. FilmInfo::sound_refused says if the sound cannot be decoded.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   // Reads one more packet, for containers that store sound later than its pictures; false when that cannot help.
   [[nodiscard]] bool readAhead();
-  // For a machine that cannot decode all pictures in time. `unreferenced`: those of the colour that no other picture
-  // refers to are left out. Depth of a track of its own goes on at its own pace: where its colour was left out, a pair
-  // `stands`. `until`: pictures before it are late already and left out, as far as key frames allow.
+  // For a machine that cannot decode all pictures in time. `unreferenced`: leaves out those colour pictures that no
+  // other picture refers to. Depth in a track of its own keeps its own pace: where its colour was left out, the pair
+  // `stands`. `until`: pictures before it are late already and are left out, as far as key frames allow.
   void leaveOut(bool unreferenced, std::optional<MediaTime> until = {});
   void close() noexcept;
   // Makes a blocked call, and all later ones until the next `open`, return Cancelled.
   void interrupt() noexcept;
-  // Blocked in the read of the colour's source. Any thread.
+  // True while blocked in a read of the colour's source. Any thread.
   [[nodiscard]] bool waitsForSource() const noexcept;
 
   [[nodiscard]] const FilmInfo& info() const noexcept;

@@ -15,8 +15,8 @@ class Playhead {
  public:
   static constexpr std::size_t kAhead = 4;  // the look-ahead of the depth window
 
-  // For depth that is made while the film plays: buffers `pairs` pairs, whose depth comes by `attach`. A pair that has
-  // no depth of its own when it becomes the present one gets the last depth.
+  // For depth that is made while the film plays: buffers `pairs` pairs, whose depth is added by `attach`. A pair whose
+  // depth is missing when it becomes the present one gets the last depth.
   void waitForDepth(std::size_t pairs) noexcept {
     wanted_ = pairs;
     holds_ = true;
@@ -41,7 +41,7 @@ class Playhead {
   }
 
   [[nodiscard]] const FramePair& present() const noexcept { return present_; }
-  // Counts the pairs that have been the present one, but for those whose colour is that of the pair before.
+  // Counts the present pairs so far, without those that repeat the colour of the pair before.
   [[nodiscard]] std::uint64_t colors() const noexcept { return colors_; }
   [[nodiscard]] const std::deque<FramePair>& ahead() const noexcept { return ahead_; }
   [[nodiscard]] bool filled() const noexcept { return ahead_.size() >= wanted_; }

@@ -15,7 +15,7 @@ class RestTime {
     total_ = until(now);
     since_.reset();
   }
-  // Without a rest that is still going on, and with it.
+  // The total of ended rests, and the total including a rest that is still going on.
   [[nodiscard]] Duration ended() const noexcept { return total_; }
   [[nodiscard]] Duration until(MonotonicTime now) const noexcept { return since_ ? total_ + (now - *since_) : total_; }
 

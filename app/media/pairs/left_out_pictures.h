@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where colour pictures were left out for lack of time, and how many. Pure.
+// Detects and counts colour pictures that were left out for lack of time. Pure.
 #pragma once
 
 #include <cmath>
@@ -14,12 +14,12 @@ namespace relievo {
 
 class LeftOutPictures {
  public:
-  // From now on a gap between two pictures is one of pictures that were left out.
+  // From now on, a gap between two pictures means that pictures were left out.
   void begin() noexcept { begun_ = true; }
   // The next picture does not follow the last one.
   void jump() noexcept { last_color_ = last_pair_ = std::nullopt; }
 
-  // Pictures are missing between the last one and this.
+  // True if pictures are missing between the last one and this one.
   [[nodiscard]] bool areBefore(MediaTime color, Duration period) const noexcept {
     return begun_ && last_color_ && toSeconds(color - *last_color_) >= kGap * toSeconds(period);
   }

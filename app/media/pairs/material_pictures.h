@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a track beside the colour that say what the surface feels like at each place.
+// Reads the track that gives the surface's material at each place, beside the colour.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace relievo {
 
-// A film without it, or whose track fails, is felt as a whole. One thread.
+// Without the track, or after it fails, the film has one material everywhere. One thread.
 class MaterialPictures {
  public:
-  // The film's track, in its colour's source, which is open for the first time or again; nullopt if it has none.
-  // `source` and `shift`, which is added to the track's times, stay until the next call.
+  // Selects the film's material track in the colour's source; nullopt if it has none. Call when the source is opened or
+  // reopened. `source` and `shift`, which is added to the track's times, must live until the next call.
   void select(TrackReader& source, const std::optional<StreamInfo>& track, const Duration& shift);
-  // The picture for this colour time; empty: none. After an error it may be asked again, or given up.
+  // The picture for this colour time; empty: none. After an error, call it again or give the track up.
   [[nodiscard]] Result<Frame> at(MediaTime time);
   // After a seek in the source.
   void restart() noexcept;
   void giveUp() noexcept { follower_.reset(); }
 
-  // What its full codes stand for; empty without a track.
+  // The values of the track's full codes; empty without a track.
   [[nodiscard]] const Material& scale() const noexcept { return scale_; }
-  // Why there is none although the film has such a track; else null.
+  // Why the track cannot be used; null if there is none or it is used.
   [[nodiscard]] const char* refused() const noexcept { return refused_; }
 
  private:

@@ -29,10 +29,10 @@ class OpenSources {
 
   // Any thread: makes blocked calls of the sources, and of those to come, return Cancelled.
   void interrupt() noexcept;
-  // Any thread: since `allow`. For work that no source knows of.
+  // Any thread: true if interrupted since `allow`. For work outside the sources.
   [[nodiscard]] bool interrupted() noexcept;
-  // Any thread: the colour's source is waited for. With `file_clock`, which is for a file, only a long wait counts: a
-  // file is read by a thread of its own, which waits for a processor as any other does.
+  // Any thread: true while the colour's source is waited for. Pass `file_clock` for a file: then only a long wait
+  // counts, since the thread that reads a file may just be waiting for a processor.
   [[nodiscard]] bool waitsForColor(const Clock* file_clock) noexcept;
 
  private:

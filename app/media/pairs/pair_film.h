@@ -161,7 +161,7 @@ struct PairReader::Impl {
   OwnDepth own;          // of `sources.depth()`, which reads `depth_url`
   Duration key_step{0};  // of the last seek
   LeftOutPictures left_out;
-  bool reach_open = false;  // near and far are those of a few pictures, and no later one was told to lie beyond
+  bool reach_open = false;  // near and far come from a few pictures, and nothing beyond them was reported yet
 };
 
 }  // namespace relievo
