@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the things of one picture have moved since the one before it.
+// Estimates the motion of objects from one picture to the next.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +22,14 @@ struct Motion {
   bool operator==(const Motion&) const = default;
 };
 
-// For each sample of `now` where it was in `before`, relative to its own place: the best vector of blocks of 8 x 8 by
-// recursive search from coarse to fine (after de Haan 1993), in quarters of a sample; at each sample that of the near
-// blocks' which fits best there, so that a thing's edge keeps to the thing. Both pictures have one size.
+// For each sample of `now`, its position in `before` relative to its own: the best vector of blocks of 8 x 8 by
+// recursive search from coarse to fine (after de Haan 1993), in quarters of a sample. Each sample gets, of the nearby
+// blocks' vectors, the one that fits best there, so that an object's edge moves with the object. Both pictures have one
+// size.
 [[nodiscard]] std::vector<Motion> motionBetween(const GrayPicture& before, const GrayPicture& now);
 
-// For each sample of `now` whether it has just come to light: the way there and back ends elsewhere, and the sample
-// does not look like the one that it is said to be. `back`: motionBetween(now, before).
+// For each sample of `now`, true if it has just been uncovered: its motion there and back does not return to it, and it
+// does not look like the sample that it is said to come from. `back`: motionBetween(now, before).
 [[nodiscard]] std::vector<bool> uncovered(const GrayPicture& before, const GrayPicture& now,
                                           const std::vector<Motion>& motion, const std::vector<Motion>& back);
 

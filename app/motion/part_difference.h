@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How unlike a part of one picture is to the part of another that lies a quarter, or many, of a sample aside.
+// The difference between a part of one picture and a part of another, at distances in quarters of a sample.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace relievo {
 // Square parts of these sizes are compared quickly.
 inline constexpr int kLargePart = 12, kSmallPart = 5;
 
-// A picture as it is between its samples, at each quarter of one to the right and down: made where it is asked for,
-// once, with its last samples going on beyond its edge.
+// A picture interpolated at each quarter of a sample to the right and down. Each is made on demand, once, with the
+// border samples repeated beyond the edge.
 class QuarterPictures {
  public:
   explicit QuarterPictures(GrayPicture picture) : picture_(std::move(picture)) {}
@@ -34,8 +34,8 @@ class QuarterPictures {
   mutable std::array<GrayPicture, 16> made_;
 };
 
-// The part of `now` from (left, top) to before (right, bottom), within the picture, as one of `before` at a distance:
-// the sum of the differences, or a sum above `most`. Beyond the last samples of `before` they go on.
+// The part of `now` from (left, top) to before (right, bottom), within the picture, compared with a part of `before` at
+// a distance. Returns the sum of differences, or any sum above `most`. Border samples of `before` are repeated.
 struct PicturePart {
   int left, top, right, bottom;
 };

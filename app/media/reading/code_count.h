@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histogram of a depth picture's codes, and what the codes of neighbouring samples tell.
+// Histogram of a depth picture's codes, and statistics of neighbouring codes.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class CodeCount {
  public:
   // Counts all samples of a gray or YUV picture, or of an RGB picture whose three components are equal.
   explicit CodeCount(const Frame& depth);
-  // A later picture of the same film: it counts for `reach` and `together` alone.
+  // Adds a later picture of the same film, which only `reach` and `together` use.
   void addLater(const Frame& depth) { later_.emplace_back(depth); }
 
   [[nodiscard]] int bits() const noexcept { return bits_; }
@@ -29,8 +29,8 @@ class CodeCount {
   struct Reach {
     std::uint32_t low = 0, high = 0;
   };
-  // The codes from the quantile `outliers` to the quantile 1 - `outliers`, of those in `low` .. `high`: the widest that
-  // this picture and the later ones span together.
+  // The codes from the quantile `outliers` to the quantile 1 - `outliers`, of those in `low` .. `high`: the widest
+  // range of this picture and the later ones.
   [[nodiscard]] Reach reach(double outliers, std::uint32_t low, std::uint32_t high) const;
   // This picture and the later ones as one.
   [[nodiscard]] CodeCount together() const;
@@ -40,9 +40,9 @@ class CodeCount {
   [[nodiscard]] double remainders(std::uint32_t divisor, std::uint32_t most) const;
   // How many different codes occur.
   [[nodiscard]] int kinds() const;
-  // Whether what a sensor leaves at 0, its holes, occurs, and no code of 1 .. `gap` does.
+  // True if code 0 occurs, a sensor's hole, and no code of 1 .. `gap` does.
   [[nodiscard]] bool hasGapAtZero(std::uint32_t gap) const;
-  // The same samples, also of the later pictures, without those of the codes `set`.
+  // The same samples, also of the later pictures, without those whose code is in `set`.
   [[nodiscard]] CodeCount without(const CodeSet& set) const;
 
  private:
@@ -56,10 +56,9 @@ class CodeCount {
 [[nodiscard]] bool isSwapped(const Frame& depth);
 // True for a picture of 16-bit gray whose neighbouring samples are alike only without their upper three bits.
 [[nodiscard]] bool hasConfidence(const Frame& depth);
-// How the two bytes of 16-bit codes lie in the red and green of a picture of RGB in 8 bits, whose blue is one code, or
-// the three of 24-bit codes, the lowest in red; as
-// stored unless the lower byte carries into the upper one often where that changes by one. Or the bytes of a float lie
-// in all four.
+// Where the two bytes of 16-bit codes lie in the red and green of an 8-bit RGB picture whose blue is constant, or the
+// three bytes of 24-bit codes, the lowest in red; or a float's four bytes in RGBA. Returns AsStored unless the lower
+// byte often wraps where the upper one changes by one.
 [[nodiscard]] SampleOrder packedOrder(const Frame& depth);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a film's reading of all that is known about its depth: what was said, files, tags, names and pictures.
+// Combines all that is known about a film's depth into its reading: options, files, tags, names and pictures.
 #pragma once
 
 #include <map>
@@ -36,15 +36,16 @@ struct DepthMeaning {
   FilmReading reading;  // without doubts
 };
 
-// The recording's kind: stated, else told by its place if its pictures are of that form, else shown by the picture,
-// whose samples are as stored, and by `later` ones. Null if none is known or the codes' meaning was said.
+// The recording's kind: stated by the user; else by its file names, if its pictures have that kind's form; else
+// recognised from the picture, whose samples are as stored, and from `later` ones. Null if none is known, or if the
+// codes' meaning was stated.
 [[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later = {});
 
 // `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order; `later`: further ones, so
 // that near and far hold for the whole film. Errors as chooseCalibration.
 [[nodiscard]] Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                                                std::span<const Frame> later = {});
-// Whether near, far or the codes in use are those of the pictures that were looked at, beyond which others may lie.
+// True if near, far or the range of codes come from the pictures examined, so that later pictures may lie beyond them.
 [[nodiscard]] bool isReachSeen(const CalibrationChoice& choice);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells from a depth track's first telling picture what its codes are, as far as nobody has said it.
+// Determines from a depth track's first informative picture what its codes mean, unless that is stated.
 #pragma once
 
 #include <initializer_list>
@@ -31,15 +31,15 @@ struct DepthReading {
 [[nodiscard]] DepthReading readCodes(const Frame& depth, const CodeCount& count, const CalibrationLayers& said,
                                      const KnownKind* kind = nullptr);
 
-// Whether one of the keys is said, by whomever.
+// True if any layer states one of the keys.
 [[nodiscard]] bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys);
 
-// For codes that are brightness: the range of YUV that states none, black that is a hole, and the words for what cannot
-// be known, the near end and the holes of a film.
+// For codes that are brightness: finds the range of YUV that states none, whether black is a hole, and the words for
+// what cannot be known: the near end and the holes of a film.
 [[nodiscard]] DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said);
 
-// The kind that `readCodes` will find, before the samples are put in its order. The unit of distances is told from all
-// pictures of `count`. Null if nothing is certain.
+// The kind that `readCodes` will find, determined before the samples are put in its order. The unit of distances is
+// determined from all pictures of `count`. Null if nothing is certain.
 [[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);
 
 // The distances at both ends of the hues.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a film's depth means, part by part: who said it, and how sure that is.
+// The reading of a film's depth, part by part: its source, and how certain it is.
 #pragma once
 
 #include <map>
@@ -26,10 +26,10 @@ struct FilmReading {
   std::vector<std::string> doubts;  // why the reading looks wrong, and the option to try; one line each
 };
 
-// What an author writes into a film, so that a guess stays one: the keys of the calibration that nobody has said, as
-// DEPTH_LIKELY=polarity,law and DEPTH_ASSUMED=near,far. A tag without keys is left out.
+// Tags that keep a guess marked as a guess when an author writes them into a film: the keys of the calibration that
+// nobody has stated, as DEPTH_LIKELY=polarity,law and DEPTH_ASSUMED=near,far. A tag without keys is left out.
 [[nodiscard]] std::map<std::string, std::string> certaintyTags(const FilmReading& reading);
-// Marks the parts that a film's tags state as the guesses that they were.
+// Marks parts as guesses if the film's tags say that they were guesses.
 void markGuesses(const std::map<std::string, std::string>& tags, CalibrationChoice& choice);
 
 // For a viewer: "depth right of the colour as brightness, near bright, no holes".

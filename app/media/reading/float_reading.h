@@ -16,17 +16,16 @@ namespace relievo {
 // it says depth.
 [[nodiscard]] bool saysDisparity(std::string_view path);
 
-// Whether the numbers are those of a room in metres, and hardly disparities in pixels: all from 0.1 to 16.
+// True if the numbers may be a room's distances in metres, and are hardly disparities in pixels: all from 0.1 to 16.
 [[nodiscard]] bool mayBeMetres(const Frame& depth, const CodeCount& count);
 
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
-// millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows that they
-// begin at an arbitrary zero. What `said` states overrides the guess: unit= makes them distances, law= or polarity=
-// disparities.
+// millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows an arbitrary
+// zero. What `said` states overrides the guess: unit= makes them distances, law= or polarity= disparities.
 [[nodiscard]] DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity,
                                       const CalibrationLayers& said);
 
-// `unit` and `codes`, which users state for the file's numbers, divided by the scale.
+// Divides `unit` and `codes`, which users state in the file's numbers, by the scale.
 void scaleToCodes(CalibrationLayers& said, double value_per_code);
 
 }  // namespace relievo

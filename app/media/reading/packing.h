@@ -52,8 +52,8 @@ struct TrackPlan {
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
 
-// Whether the track is neither colour nor depth, but what the surface feels like: it has the tag kMaterialScaleTag, or
-// it is called "material" and the container has the tag.
+// True for a track that is neither colour nor depth but the surface's material: it has the tag kMaterialScaleTag, or it
+// is called "material" and the container has the tag.
 [[nodiscard]] bool isMaterial(const StreamInfo& track, const std::map<std::string, std::string>& container_tags);
 
 // The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
@@ -77,11 +77,11 @@ struct Halves {
 };
 
 // The two halves of a packed picture, by reference; the depth is as large as the colour. If the number of columns
-// (rows) is odd, the middle one belongs to neither, nor do the `seam` ones there of a margin. Depth read from luma
+// (rows) is odd, the middle one belongs to neither half; nor do the middle `seam` ones, a margin. Depth read from luma
 // (`code`) becomes a gray view that begins at the exact sample; depth that needs chroma begins at a whole chroma
-// sample, at most one pixel late. `gray`: red is read from RGB as it is, and from YUV as luma. Of Packing::Alpha they
-// are the whole picture and its alpha channel. Unsupported if the picture is too small to be halved, or has no alpha
-// channel.
+// sample, at most one pixel late. `gray`: red is read from RGB unchanged, and from YUV as luma. With Packing::Alpha the
+// halves are the whole picture and its alpha channel. Unsupported if the picture is too small to be halved, or has no
+// alpha channel.
 [[nodiscard]] Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code,
                                          GrayFrom gray = GrayFrom::Luma, int seam = 0) noexcept;
 

@@ -33,7 +33,7 @@ struct PictureLook {
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;
 // True if the picture is one of red shades: brightness in the red component alone.
 [[nodiscard]] bool isRedAlone(const PictureLook& look) noexcept;
-// True if it is dark or even, as before a fade-in or behind a cap: it tells nothing.
+// True if it is dark or uniform, as before a fade-in or behind a lens cap: it shows nothing.
 [[nodiscard]] bool isBlank(const Frame& picture) noexcept;
 
 struct AlphaLook {

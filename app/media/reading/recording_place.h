@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the names of a recording's files and folders, the files beside it and the tags of other programs tell about its
-// depth.
+// Finds a recording's kind and depth parameters from the names of its files and folders, the files beside it and other
+// programs' tags.
 #pragma once
 
 #include <map>
@@ -18,14 +18,14 @@ struct RecordingPlace {
   CalibrationOrigin origin = CalibrationOrigin::Name;  // of the kind
   CalibrationSettings settings;                        // read from a file or a tag: near, far, unit
   std::string why;
-  std::string file;                    // beside it, that this was read from; empty: none
+  std::string file;                    // the file beside it that this was read from; empty: none
   std::optional<StereoCamera> camera;  // of disparities; calib.txt
 };
 
-// Looks at `depth_url`, or at `url` if that is empty; addresses of networks and devices tell nothing. Reads small files
-// only: a camera's JSON, Depthkit's, calib.txt.
+// Examines `depth_url`, or `url` if that is empty; for addresses of networks and devices nothing is found. Reads only
+// small files: a camera's JSON, Depthkit's, calib.txt.
 [[nodiscard]] RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url);
-// A JSON text among the container's tags (Record3D).
+// Reads a JSON text among the container's tags (Record3D).
 [[nodiscard]] RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags);
 
 }  // namespace relievo

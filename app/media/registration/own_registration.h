@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The registration that a recording brings along.
+// The registration that a recording contains.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace relievo {
 
-// Where the depth track's tag DEPTH_REGISTRATION holds the TOML of a registration, that one; of an Azure Kinect's or a
-// Femto's recording the one in its attachment calibration.json. Nullopt if there is none, or it cannot be used.
+// Reads the depth track's tag DEPTH_REGISTRATION, which holds the TOML of a registration, or the attachment
+// calibration.json of an Azure Kinect's or a Femto's recording. Nullopt if there is none, or it cannot be used.
 [[nodiscard]] std::optional<Registration> ownRegistration(const MediaSource& source, const StreamInfo& color,
                                                           const StreamInfo& depth);
 
-// The attachment's text, for pictures of these sizes in pixels. Nullopt if it is damaged, or the sizes or the lens
-// model are none of that camera's.
+// Reads the attachment's text, for pictures of these sizes in pixels. Nullopt if it is damaged, or if the sizes or the
+// lens model are not that camera's.
 struct ModeSize {
   int cols = 0, rows = 0;
 };

@@ -36,16 +36,16 @@ struct Registration {
 // Reads the TOML that app/author/README.md describes. InvalidArgument names the rule that the text breaks.
 [[nodiscard]] Result<Registration> parseRegistration(std::string_view toml);
 
-// Registers pictures; keeps the rays of the depth camera's pixels from picture to picture.
+// Registers pictures. Keeps the rays of the depth camera's pixels between pictures.
 class Registrar {
  public:
   explicit Registrar(const Registration& registration);
 
   [[nodiscard]] const Registration& registration() const noexcept { return registration_; }
   // The distances as the colour camera would see them: as wide as the depth picture, in the colour's aspect ratio, 16
-  // bits, the same unit. Every sample is a small plate, tilted as its neighbours on both sides agree; where several
-  // cover a pixel the nearest wins, and where none does there is a hole. Codes 0 and 65535 are holes. Unsupported
-  // unless the picture holds whole-number codes.
+  // bits, the same unit. Every sample is drawn as a small plate, tilted as its neighbours on both sides agree; where
+  // several plates cover a pixel the nearest wins, and where none does there is a hole. Codes 0 and 65535 are holes.
+  // Unsupported unless the picture holds whole-number codes.
   [[nodiscard]] Result<Frame> registered(const Frame& depth);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sound and subtitle tracks of a film, and which of them is wished for.
+// The sound and subtitle tracks of a film, and the choice among them.
 #pragma once
 
 #include <cstddef>

@@ -43,13 +43,13 @@ class TrackReader {
   // Selects a stream for decoding; returns the track number for `next`. If the caller sets a frame period in `stream`,
   // pictures without timestamps are numbered by it. Exhausted when kMaxTracks are already selected.
   [[nodiscard]] Result<std::size_t> select(const StreamInfo& stream);
-  // Selects the sound. What has been read before is missed, until a seek.
+  // Selects the sound. Packets read before are not decoded, until a seek.
   [[nodiscard]] Result<void> listen(std::unique_ptr<AudioDecoder> decoder, const StreamInfo& stream,
                                     const AudioFormat& format) {
     return sound_.open(std::move(decoder), stream, format);
   }
-  // Selects the subtitles. What has been read lately comes again, so that a line that already runs is not missed; so
-  // that a seek does not miss one, it reads the lines of `before` its target as well.
+  // Selects the subtitles. Packets read lately are repeated, so that a line that is already running is not missed; for
+  // the same reason a seek also reads the lines of the time `before` its target.
   [[nodiscard]] Result<void> readWords(std::unique_ptr<SubtitleDecoder> decoder, const StreamInfo& stream,
                                        Duration before = Duration(0)) {
     return words_.open(std::move(decoder), stream, before);
@@ -68,14 +68,14 @@ class TrackReader {
   // No more pictures will come, except after a seek.
   [[nodiscard]] bool ended(std::size_t track) const noexcept;
   // Afterwards each track's next picture is the last key frame at or before `target`, an earlier one, or the track's
-  // first. A track that has no picture so early, or has ended before, may return a later one or none. With `key_step`
-  // over 0 only key frames follow, at least `key_step` apart, each decoded by itself.
+  // first. A track that begins later, or has ended before, may return a later picture or none. With `key_step` over 0
+  // only key frames follow, at least `key_step` apart, each decoded by itself.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
   // As VideoDecoder::leaveOutUnreferenced, for the leading track.
   void leaveOutUnreferenced(bool leave_out);
   // For pictures that are decoded too late. Leaves out what lies before the leading track's last key frame at or before
-  // `until`, and before the other tracks' last key frames at or before that one; packets are read as far as `until`,
-  // and the sound with them. False where no key frame lies ahead: then nothing is left out.
+  // `until`, and before the other tracks' last key frames at or before that one; packets up to `until` are read,
+  // including sound. False if no key frame lies ahead: then nothing is left out.
   [[nodiscard]] Result<bool> hurryTo(MediaTime until);
   void interrupt() noexcept { source_->interrupt(); }
   // Blocked in the source's read. Any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns pictures upright that a camera took on its side or upside down.
+// Rotates pictures upright that a camera took on its side or upside down.
 #pragma once
 
 #include "hal/media/frame.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two cameras side by side, as a file beside their disparities describes them, and the distances of the disparities.
+// Describes two cameras side by side, read from a file beside their disparities, and converts disparities to distances.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,8 @@ struct StereoCamera {
 // size, whatever the pictures' size, less the number in `dmin_file`, if there is one.
 [[nodiscard]] StereoCamera stereoCameraOf2006(const std::filesystem::path& dmin_file);
 
-// The range of the codes in use and its distances. Codes that stand for no floats are pixels, or 1/256 of them where
-// pixels would be more than the camera's largest disparity.
+// The range of the codes in use and its distances. Codes that stand for no floats are pixels, or 1/256 pixel if whole
+// pixels would exceed the camera's largest disparity.
 [[nodiscard]] DepthReading readDisparities(const Frame& depth, const CodeCount& count, const StereoCamera& camera);
 
 }  // namespace relievo

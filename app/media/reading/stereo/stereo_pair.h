@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells two views of one scene from a colour picture and its depth.
+// Recognises two views of one scene, as opposed to a colour picture and its depth.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ namespace relievo {
 // the width. A depth picture lacks the colour's texture.
 [[nodiscard]] bool areViews(const Frame& first, const Frame& second);
 
-// True if both pictures have texture and hardly any of it is in both: then they are not two views of one scene.
+// True if both pictures have texture but share hardly any of it: they are not two views of one scene.
 [[nodiscard]] bool areOtherPictures(const Frame& first, const Frame& second);
 
 // Whether the picture's halves are two views: StereoSideBySide or StereoTopBottom.
@@ -23,8 +23,9 @@ namespace relievo {
 struct Views {
   Frame left, right;
 };
-// The two views of a stereo picture, `right_first` or not, in the shape in which they are shown. `squeezed`: each was
-// squeezed by half; nullopt: where both together are no wider (or higher) than one view is. Nullopt: it is too small.
+// The two views of a stereo picture, `right_first` or not, in the shape in which they are shown. `squeezed`: each view
+// was squeezed by half; nullopt: squeezed if both together are no wider (or higher) than one view. Nullopt if the
+// picture is too small.
 [[nodiscard]] std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first,
                                            std::optional<bool> squeezed = std::nullopt);
 
