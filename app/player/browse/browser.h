@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of films on the screen: finds them, keeps their posters, and follows what the viewer does with them.
+// The list of films on the screen: finds films, keeps their posters, and follows what the viewer does in the list.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// Films that were left, the last one first: what each is kept by (Resume::keyOf), and where in seconds.
+// Films that the viewer left, the last one first: the key of each (Resume::keyOf), and the position in seconds.
 using LeftFilms = std::vector<std::pair<std::string, double>>;
 
 struct BrowserConfig {
@@ -24,29 +24,29 @@ struct BrowserConfig {
   std::vector<std::string> stick_roots = stickRoots();  // below these a mount is a stick
 };
 
-// The player's thread; no verb waits.
+// The player's thread; no call waits.
 class Browser {
  public:
-  static constexpr Duration kLookPeriod = std::chrono::seconds(3);  // between two looks at the folders
+  static constexpr Duration kLookPeriod = std::chrono::seconds(3);  // between two searches of the folders
   static constexpr std::size_t kMostRecent = 5;
 
   Browser(BrowserConfig config, PairReader::Backends posters, SourceOptions options, bool own_threads = true);
 
   // The list is shown from now on: looks for films.
   void open(LeftFilms left, MonotonicTime now);
-  // A film is played: nothing is looked for, and no poster is made.
+  // Call when a film is played: the search stops, and no posters are made.
   void close();
-  // Once a round while it is shown. True if `view` has changed.
+  // Call once a round while the list is shown. True if `view` has changed.
   [[nodiscard]] bool attend(MonotonicTime now);
-  // Once a round while a film is played: the place among the sticks from which that film was taken away, by its path.
+  // Call once a round while a film is played: returns the mount point of this film's medium if it was removed.
   [[nodiscard]] std::optional<std::string> takenAway(const std::string& film);
 
   [[nodiscard]] const FilmShelf& shelf() const noexcept { return shelf_; }
   void selectBy(std::ptrdiff_t films);
   void select(std::size_t film);
-  // The mouse is over this film of the view, or over none.
+  // The mouse is over this film of the view; nullopt: over none.
   void point(std::optional<std::size_t> film);
-  // Rows stand no lower than a warning, while there is one.
+  // While a warning is shown, the rows end above it.
   void warn(bool warned);
   [[nodiscard]] const ScreenList& view() const noexcept { return view_; }
 
@@ -66,7 +66,7 @@ class Browser {
   LeftFilms left_;
   MonotonicTime next_look_;
   std::vector<std::string> sticks_before_;  // while a film is played
-  bool moved_ = false;                      // the viewer has selected a film; before that it is the first one
+  bool moved_ = false;                      // the viewer has selected a film; until then the first one is selected
   bool changed_ = false;
   bool warned_ = false;
 };

@@ -25,22 +25,23 @@ struct ShelfSection {
 
 class FilmShelf {
  public:
-  // Replaces the films. Selected is then the first of these that exists: the same film in its section, the film at the
-  // same place of that section, the same film in another section, the film at the same place of the list.
+  // Replaces the films. Afterwards the selected film is the first of these that exists: the same film in its section,
+  // the film at the same place of that section, the same film in another section, the film at the same place of the
+  // list.
   void put(std::vector<ShelfSection> sections);
 
-  // Films, without headings; a film in two sections counts twice.
+  // The number of films, without headings; a film in two sections counts twice.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
   [[nodiscard]] const std::vector<ShelfSection>& sections() const noexcept { return sections_; }
-  // From 0 on, over all sections; 0 if there is none.
+  // The index of the selected film, over all sections; 0 if there is none.
   [[nodiscard]] std::size_t selected() const noexcept { return selected_; }
-  // Its number in its section, from 1 on, and how many films that has; `film` below `size`.
+  // A film's number in its section, from 1 on, and the section's number of films; `film` must be below `size`.
   struct Place {
     std::size_t number = 0, of = 0;
   };
   [[nodiscard]] Place placeInSection(std::size_t film) const noexcept;
-  // `film` below `size`.
+  // `film` must be below `size`.
   [[nodiscard]] const ShelfFilm& film(std::size_t film) const noexcept;
 
   // Stops at both ends.

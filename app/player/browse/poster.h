@@ -9,7 +9,7 @@ namespace relievo {
 
 struct Poster {
   static constexpr int kMostCols = 192, kMostRows = 108;
-  TextPicture picture;  // at most kMostCols x kMostRows, of the film's shape; none: it could not be read
+  TextPicture picture;  // at most kMostCols x kMostRows, in the film's shape; empty: the film could not be read
   double length_s = 0;  // of the film; 0: unknown
   [[nodiscard]] bool empty() const noexcept { return picture.rgba.empty(); }
 };

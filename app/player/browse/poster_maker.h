@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes posters of films on a thread of its own, those that are wished for and no more.
+// Makes the requested posters of films on a thread of its own.
 #pragma once
 
 #include <cstddef>
@@ -16,23 +16,24 @@ struct WishedPoster {
   std::string url, depth_url;
 };
 
-// One thread calls it; no verb waits, but for the destructor, up to half a second.
+// Use from one thread; no call waits, except the destructor, up to half a second.
 class PosterMaker {
  public:
-  static constexpr std::size_t kMostKept = 48;                    // 4 MB; then the oldest go
-  static constexpr Duration kLongest = std::chrono::seconds(10);  // for one; after that the film has none
+  static constexpr std::size_t kMostKept = 48;                    // 4 MB; beyond that the oldest are dropped
+  static constexpr Duration kLongest = std::chrono::seconds(10);  // for one film; after that it has no poster
 
-  // `options` says how the films are read. Without backends it makes none.
+  // `options` says how to read the films. Without backends no posters are made.
   PosterMaker(PairReader::Backends backends, SourceOptions options);
   ~PosterMaker();
   PosterMaker(const PosterMaker&) = delete;
   PosterMaker& operator=(const PosterMaker&) = delete;
 
-  // These next, in this order, instead of those wished for before; none: it rests, and leaves the one it is at.
+  // Makes these posters next, in this order, instead of those requested before. If empty, it stops after the present
+  // one.
   void wish(const std::vector<WishedPoster>& films);
-  // Once a round: gives up a film that takes too long. True if a poster has been made since the last call.
+  // Call once a round: gives up a film that takes too long. True if a poster has been made since the last call.
   [[nodiscard]] bool attend();
-  // Null: not yet made.
+  // Null: not made yet.
   [[nodiscard]] std::shared_ptr<const Poster> find(const std::string& url) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which USB sticks and other removable media are mounted, and when that changes.
+// Lists mounted USB sticks and other removable media, and notices changes.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Where desktops and boxes mount what is plugged in.
+// The folders where desktops and boxes mount removable media.
 [[nodiscard]] std::vector<std::string> stickRoots();
 
 // The mount points at or below `roots` in the text of /proc/PID/mountinfo (proc(5)), each once, sorted.

@@ -24,8 +24,7 @@ struct Views {
   Frame left, right;
 };
 // The two views of a stereo picture, `right_first` or not, in the shape in which they are shown. `squeezed`: each view
-// was squeezed by half; nullopt: squeezed if both together are no wider (or higher) than one view. Nullopt if the
-// picture is too small.
+// was squeezed by half; nullopt: the picture's shape decides. Nullopt if the picture is too small.
 [[nodiscard]] std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first,
                                            std::optional<bool> squeezed = std::nullopt);
 
