@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a viewer can ask of the player, in one vocabulary: of keys, of the key file, of the control socket.
+// The commands of a viewer, in one vocabulary for keys, the key file and the control socket.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace relievo {
 enum class PlayerVerb : std::uint8_t {
   Play,       // at the usual rate
   Pause,      // the picture stands, and stays touchable
-  PlayPause,  // the other of the two
-  Step,       // the next picture, and stand
-  StepBack,   // the previous picture, and stand
+  PlayPause,  // toggles
+  Step,       // shows the next picture, paused
+  StepBack,   // shows the previous picture, paused
   Faster,     // one up of 1/8 1/4 1/2 1 2 4 8 16; from 2 on by key frames, without touch
   Slower,     // one down
   NormalSpeed,
@@ -23,52 +23,52 @@ enum class PlayerVerb : std::uint8_t {
   SeekShare,   // of the film's length, 0 to 1
   Next,        // film of the list
   Previous,    // film of the list, or this one from its beginning
-  Loop,        // begins again at the end, or no longer; value 1: does, -1: does not, 0: the other of the two
+  Loop,        // plays again from the beginning at the end; value 1: on, -1: off, 0: toggles
   Open,        // another film or list
   SelectBy,    // films in the list of films that is shown
   SelectTo,    // a film there, by its number from 1 on; 0: the last one
   Choose,      // plays the selected film
-  Back,        // to the list of films, where one was shown; else as Stop. In the list, to its first film
-  Escape,      // out of full screen; in a window, to the list of films
+  Back,        // to the list of films, if one was shown; else like Stop. In the list: selects its first film
+  Escape,      // leaves full screen; in a window, goes to the list of films
   Stop,        // ends the film
   Quit,        // ends the program
-  Layout,      // another way to show stereo; without its word the next one
-  FullScreen,  // on, off, or the other of the two, as Loop: of a window
+  Layout,      // stereo layout; without a word the next one
+  FullScreen,  // of a window; on, off or toggle, as Loop
   SwapEyes,
-  DepthBy,   // for the eyes, of 1
+  DepthBy,   // factor on the depth for the eyes, added
   ScreenBy,  // mm, the whole scene towards the viewer
-  ZoomBy,    // of 1, the picture in its view
-  Aspect,    // the shape that the picture is shown with: "film", "16:9", "4:3", "2.35:1"; without its word the next one
-  Info,      // the bar on the screen, or no more
+  ZoomBy,    // factor on the picture's size in its view, added
+  Aspect,    // the picture's shape: "film", "16:9", "4:3", "2.35:1"; without a word the next one
+  Info,      // toggles the bar on the screen
   Statistics,
-  Keys,             // what each key means now, on the screen
+  Keys,             // shows what each key means now
   Screenshot,       // a PNG of the picture
   VolumeBy,         // percent
   VolumeTo,         // percent
-  Mute,             // on, off, or the other of the two, as Loop
+  Mute,             // on, off or toggle, as Loop
   AudioTrack,       // value: its number, from 1 on; 0: the next one
   AudioDelayBy,     // seconds
   SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last
-  ShowSubtitles,    // on, off, or the other of the two, as Loop
+  ShowSubtitles,    // on, off or toggle, as Loop
   SubtitleDelayBy,  // seconds
-  SubtitleSizeBy,   // of 1
-  ChapterBy,        // chapters; -1: this one's beginning, or the one before it
-  LoopAB,           // first the beginning of what is repeated, then its end, then no more
+  SubtitleSizeBy,   // factor, added
+  ChapterBy,        // chapters; -1: to this one's beginning, or to the one before it
+  LoopAB,           // first sets the beginning of the repeated part, then its end, then clears both
 };
 
 struct PlayerCommand {
   PlayerVerb verb = PlayerVerb::Play;
   double value = 0;
-  std::string word;  // of Open its URL, of Layout a stereo word (see app/player/screen/stereo_word.h)
+  std::string word;  // for Open the URL, for Layout a stereo word (see app/player/screen/stereo_word.h)
 
   friend bool operator==(const PlayerCommand&, const PlayerCommand&) = default;
 };
 
-// "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nothing for what
-// is none.
+// "pause", "seek +10", "seek 75", "seek 50%", "depth -0.1", "loop on", "layout tab", "open URL", ..; nullopt if it is
+// no command.
 [[nodiscard]] std::optional<PlayerCommand> parseCommand(std::string_view words);
-// What is wrong with words that are no command: `unknown command "dance"; known are: ..`, `"loop" takes [on|off], not
-// "x"`.
+// Says what is wrong with words that are no command: `unknown command "dance"; known are: ..`, `"loop" takes [on|off],
+// not "x"`.
 [[nodiscard]] std::string whyNoCommand(std::string_view words);
 // Words that `parseCommand` reads back.
 [[nodiscard]] std::string wordsOf(const PlayerCommand& command);

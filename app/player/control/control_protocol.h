@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What programs and the player say to one another: one JSON object a line, both ways. Pure.
+// The protocol between programs and the player: one JSON object per line, in both directions. Pure.
 //
 // A program asks:   {"do": "seek +10"}      any words of app/player/control/command.h, and:
-//                   {"do": "status"}        what is going on; "second_finger" is null without a second device
-//                   {"do": "metrics on"}    counters and histograms, once a second until "metrics off"
-//                   {"do": "fault haptic unplug"}  of a mock device; which there are, the answer to a wrong one says
-// with an "id" of its own, if it likes: a whole number, or a text of at most 64 bytes, which comes back in the answer.
+// {"do": "status"}        the player's state; "second_finger" is null without a second device
+// {"do": "metrics on"}    counters and histograms, once a second until "metrics off"
+// {"do": "fault haptic unplug"}  of a mock device; the answer to an unknown fault lists the known ones
+// and optionally an "id": a whole number, or a text of at most 64 bytes, which the answer repeats.
 //
 // The player answers each line in turn: {"id": .., "ok": true}, or {"id": .., "ok": false, "error": ".."}, also for a
-// command that can do nothing now, as "pause" without a film. True means that it was heard; what comes of it, the
-// events tell. To all, whoever asked:
-//                   {"event": "state", "state": "playing", "time_s": 12.3}   seconds since the player started
-//                   {"event": "fault", "what": "..", "done": "..", "time_s": 12.3}   likewise good news, as "display
-//                   back"
-// and to those who wished them:
-//                   {"event": "metrics", ..}   in the words of the report
+// command that has no effect now, such as "pause" without a film. True means that the command was accepted; events
+// report its effect. Events go to all clients:
+// {"event": "state", "state": "playing", "time_s": 12.3}   seconds since the player started
+// {"event": "fault", "what": "..", "done": "..", "time_s": 12.3}   also for recoveries: "display back"
+// and to those that asked for them:
+// {"event": "metrics", ..}   with the names of the report
 #pragma once
 
 #include <expected>
@@ -44,13 +43,13 @@ struct ControlLine {
   std::expected<ControlRequest, std::string> asked;  // else what is wrong
 };
 
-// Any bytes.
+// Accepts any bytes.
 [[nodiscard]] ControlLine parseControlLine(std::string_view line);
 
-// Each one line, without its end.
+// Each returns one line, without its end.
 [[nodiscard]] std::string okLine(const std::string& id);
 [[nodiscard]] std::string errorLine(const std::string& id, const std::string& error);
-// `list`: the films to choose from, if they are shown; it tells at most kMostListed of them.
+// `list`: the films to choose from, if they are shown; at most kMostListed of them are sent.
 inline constexpr std::size_t kMostListed = 200;
 [[nodiscard]] std::string statusLine(const std::string& id, const ScreenFacts& facts, const std::string& source,
                                      const FilmShelf* list = nullptr);

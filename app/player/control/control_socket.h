@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A local socket that programs connect to: lines in, lines out, never waited for.
+// A local socket that programs connect to. It exchanges lines and never waits.
 #pragma once
 
 #include <sys/types.h>
@@ -16,17 +16,17 @@
 
 namespace relievo {
 
-// One thread, any. No verb waits, whatever the clients do. A client that has closed its side is still answered, and
-// then let go.
+// Use from one thread. No call waits, whatever the clients do. A client that has closed its sending side is still
+// answered, then disconnected.
 class ControlSocket {
  public:
   static constexpr std::size_t kMostClients = 8;
   static constexpr std::size_t kMostLine = 4096;          // bytes of a client's line, without its end
   static constexpr std::size_t kMostUnread = 256 * 1024;  // bytes that a client leaves unread before it is dropped
 
-  // A stream socket of mode 0600 at `path`, of the user alone from its first moment on. One that nobody listens on is
-  // replaced. InvalidState where somebody does, InvalidArgument for a path that is too long or something else than a
-  // socket, Io.
+  // Listens on a stream socket of mode 0600 at `path`, accessible only to the user from its creation on. A socket on
+  // which nobody listens is replaced. InvalidState if somebody does, InvalidArgument if the path is too long or is
+  // something other than a socket, Io.
   [[nodiscard]] static Outcome<std::unique_ptr<ControlSocket>> listen(const std::string& path);
   // Deletes the socket file, unless another program has replaced it.
   ~ControlSocket();
@@ -37,15 +37,15 @@ class ControlSocket {
   struct Line {
     ClientId client = 0;
     std::string text;
-    bool too_long = false;  // then its text is lost
+    bool too_long = false;  // its text is lost
   };
 
-  // Lets clients in and out, takes what they have sent, at most one line's bytes of each, and sends what waits for
-  // them. One that comes when there are kMostClients is told `refusal` and let go.
+  // Accepts and drops clients, receives at most one line's bytes from each, and sends queued bytes. A client beyond
+  // kMostClients gets `refusal` and is disconnected.
   void attend(std::string_view refusal);
   // The next whole line; clients take turns.
   [[nodiscard]] std::optional<Line> next();
-  // False when that client has gone.
+  // False if that client has disconnected.
   bool send(ClientId client, std::string_view line);
   void sendToAll(std::string_view line);
 
@@ -54,7 +54,7 @@ class ControlSocket {
     ClientId id = 0;
     UniqueFd fd;
     std::string in, out;
-    bool skipping = false;  // the rest of a line that is too long
+    bool skipping = false;  // skips the rest of a line that is too long
     bool ended = false;     // it sends no more
     bool gone = false;
   };
@@ -67,7 +67,7 @@ class ControlSocket {
 
   UniqueFd fd_;
   const std::string path_;
-  const dev_t device_;  // of the path, so that another's is left alone
+  const dev_t device_;  // of the path, so that another program's socket is left alone
   const ino_t inode_;
   ClientId last_id_ = 0;
   std::size_t turn_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of keys as a viewer reads them on a keyboard or a remote control.
+// The names of keys as printed on a keyboard or a remote control.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace relievo {
 
-// What the viewer holds.
+// What the viewer uses.
 enum class KeyBoard : std::uint8_t { Keyboard, Remote };
 
 // What is printed on a keyboard's key, or typed for it: "f", "]", "Enter", "Page Up". Empty for a key that only remote
 // controls have.
 [[nodiscard]] std::string keyboardLabel(std::uint16_t code);
-// "OK", "Channel +", "Red"; of a key that keyboards have alone its keyboard's label.
+// "OK", "Channel +", "Red"; for a key that only keyboards have, its keyboard label.
 [[nodiscard]] std::string remoteLabel(std::uint16_t code);
-// Remote controls have it.
+// True if remote controls have the key.
 [[nodiscard]] bool isOnRemotes(std::uint16_t code) noexcept;
-// Of what the viewer holds; the other's where it has no such key.
+// The label on what the viewer uses; the other's if that has no such key.
 [[nodiscard]] std::string keyLabel(std::uint16_t code, KeyBoard held);
 
-// What a window's mouse does and what for. `in_list`: in the list of films; `touches`: it is the finger as well.
+// What each mouse action does. `in_list`: in the list of films; `touches`: the mouse is also the finger.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool touches);
 
 }  // namespace relievo

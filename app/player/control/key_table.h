@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which key of a remote control, a keyboard or CEC means which command, in which state.
+// Which key of a remote control, a keyboard or CEC gives which command, in which state.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 
 namespace relievo {
 
-// Tables of keys in TOML, named after the player's states; what a state does not say is said by [always]:
+// Tables of keys in TOML, named after the player's states; a key that a state does not list is looked up in [always]:
 //
 //   [always]
 //   OK = { press = "play-pause", hold = "info" }   # hold: for 0.6 s
@@ -38,19 +38,19 @@ class KeyTable {
     std::optional<PlayerCommand> press, hold;
   };
 
-  // The text of the usual table: what a file of one's own begins from.
+  // The text of the usual table, as a start for a file of one's own.
   [[nodiscard]] static std::string_view usualText() noexcept;
   [[nodiscard]] static KeyTable usual();
-  // The usual table with the rows of `text` in place of its own. InvalidArgument names the line of `file`.
+  // The usual table with its rows replaced by those of `text`. InvalidArgument names the line of `file`.
   [[nodiscard]] static Outcome<KeyTable> parse(std::string_view text, const std::string& file);
   // NotFound when the file cannot be read.
   [[nodiscard]] static Outcome<KeyTable> load(const std::string& path);
 
   // Null for a key that means nothing in that state.
   [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
-  // What the keys that the viewer holds mean in a state: a row for each command, in plain words.
+  // The meaning of the viewer's keys in a state: a row for each command, in plain words.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state, KeyBoard held) const;
-  // The key that does this, as the viewer reads it: one of a keyboard, all of a remote control; empty: none.
+  // The key for this command, with its label: one key of a keyboard, or all of a remote control; empty: none.
   [[nodiscard]] std::string keyFor(PlayerVerb verb, PlayerState state, KeyBoard held) const;
   // For the help: a line for each command, with its keys' names.
   [[nodiscard]] std::string help() const;
@@ -64,26 +64,26 @@ class KeyTable {
   std::array<std::map<std::uint16_t, Binding>, kPlayerStateCount + 1> tables_;
 };
 
-// Makes commands of what a hand does to the keys. Pure; times must not go back.
+// Converts key events to commands. Pure; times must not go back.
 class KeyReader {
  public:
   static constexpr Duration kHold = std::chrono::milliseconds(600);
 
   explicit KeyReader(KeyTable table) : table_(std::move(table)) {}
-  // A key that can be held for another meaning is obeyed when it is let go of; all others when they are pressed.
+  // Returns the command of a key: on release if holding it has another meaning, else on press.
   [[nodiscard]] std::optional<PlayerCommand> take(const KeyEvent& key, PlayerState state);
-  // The meaning of a key that has been held long enough, once.
+  // The second meaning of a key that has been held long enough, once.
   [[nodiscard]] std::optional<PlayerCommand> held(MonotonicTime now);
 
  private:
   struct Pending {
     std::uint16_t code;
     MonotonicTime since;
-    KeyTable::Binding binding;  // as the state was when it was pressed
+    KeyTable::Binding binding;  // of the state in which it was pressed
   };
   KeyTable table_;
   std::optional<Pending> pending_;
-  std::uint16_t held_ = 0;  // Shift and Ctrl
+  std::uint16_t held_ = 0;  // bits of Shift and Ctrl
 };
 
 }  // namespace relievo

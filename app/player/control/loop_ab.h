@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a film that the viewer has marked to be played again and again. Pure.
+// The part of a film that the viewer has marked to be repeated. Pure.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace relievo {
 
 class LoopAB {
  public:
-  // The first call marks the part's begin, the second its end, a third forgets both; so does one without a place.
+  // The first call sets the part's beginning, the second its end, a third clears both; so does one without a position.
   void mark(std::optional<MediaTime> here) noexcept {
     if (to_ || !here) forget();
     else if (!from_) from_ = here;
@@ -20,7 +20,7 @@ class LoopAB {
     from_.reset();
     to_.reset();
   }
-  // Where the film goes on from `here`, at the part's end or behind it; nullopt before that.
+  // The position to continue from if `here` is at the part's end or behind it; nullopt before that.
   [[nodiscard]] std::optional<MediaTime> backFrom(std::optional<MediaTime> here) const noexcept {
     return to_ && here && *here >= *to_ ? from_ : std::nullopt;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The player's line to the outside: programs on the control socket, and the service manager.
+// Connects the player to programs on the control socket, and to the service manager.
 #pragma once
 
 #include <functional>
@@ -18,24 +18,24 @@ namespace relievo {
 
 class Player;
 
-// The player's thread; nothing waits. What it says is in control_protocol.h.
+// Use on the player's thread; no call waits. The messages are described in control_protocol.h.
 class PlayerControl {
  public:
-  // Into a mock device: "haptic", "unplug".
+  // Switches a fault of a mock device: "haptic", "unplug".
   using FaultSwitch = std::function<Result<void>(std::string_view device, std::string_view fault)>;
 
-  // Null: no programs.
+  // Null: no control socket.
   PlayerControl(std::unique_ptr<ControlSocket> socket, FaultSwitch switchFault)
       : socket_(std::move(socket)), switchFault_(std::move(switchFault)) {}
 
-  // Once round the player's loop: carries out what programs ask of it.
+  // Call once a round of the player's loop: carries out the programs' requests.
   void attend(Player& player, MonotonicTime now);
 
   void ready() noexcept { service_.ready(); }
   void stopping() noexcept { service_.stopping(); }
   // `time_s` since the player started.
   void stateChanged(PlayerState state, double time_s);
-  // The same again, running, is told once.
+  // Sends a fault to the clients. A fault that repeats the last one is sent once.
   void happened(const FaultEntry& fault);
 
  private:

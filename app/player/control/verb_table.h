@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of the verbs: each one's word, what stands after it, and what it means.
+// The table of command verbs: the word of each, its operand, and its meaning.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace relievo {
 
-// What stands after a verb's word. Step: a number with its sign; Time: also without, or with %; Level: also without;
-// Track: a number from 1 on, or off; Row: a whole number, with its sign or without, or last. OnOff, Layout, Shape and
-// Track may be left away.
+// The operand after a verb's word. Step: a number with its sign; Time: also without a sign, or with %; Level: also
+// without a sign; Track: a number from 1 on, or off; Row: a whole number, with or without a sign, or last. OnOff,
+// Layout, Shape and Track may be omitted.
 enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, Shape, Row };
 
 struct VerbEntry {
   PlayerVerb verb;
   const char* word;
   Operand operand;
-  const char* meaning;  // of a Step or a Time: what follows the number
+  const char* meaning;  // for a Step or a Time: the words that follow the number
   bool repeats = false;
 };
 

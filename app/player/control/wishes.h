@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Translates a viewer's command into what the player has to do in the present situation. Pure; the player then checks
-// each deed against its state table.
+// Translates a viewer's command into the actions of the player in the present situation. Pure; the player then checks
+// each against its state table.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ struct Situation {
   MediaTime here;      // the position, or the target of a pending seek
   Duration length{0};  // of the film; 0: unknown or live
   std::span<const Chapter> chapters;
-  MediaTime picture;   // the time of the picture that is shown
+  MediaTime picture;   // time of the shown picture
   Duration period{0};  // from picture to picture
   std::size_t film = 0, films = 1;
   bool film_asked = false;  // a film has been opened since the player started
@@ -33,11 +33,11 @@ struct Deed {
   enum class Kind : std::uint8_t {
     GoOn,      // resume
     Stand,     // pause
-    StepOn,    // show the next picture, paused
+    StepOn,    // show the next picture and stay paused
     Rate,      // at `rate`
     Seek,      // to `target`; `by_viewer`: it is reported
     OpenFilm,  // entry `film` of the list; `back`: the viewer moves backwards
-    Note,      // `what` is impossible, `done` happens instead
+    Note,      // `what` is impossible; `done` happens instead
   };
   Kind kind = Kind::GoOn;
   double rate = 1;
@@ -49,8 +49,8 @@ struct Deed {
   const char* done = "";
 };
 
-// The deeds, in order, of commands that control playback or choose a film of the list. Empty for other commands and for
-// those that have no effect in this situation.
+// The actions, in order, for commands that control playback or choose a film of the list. Empty for other commands, and
+// for those that have no effect in this situation.
 [[nodiscard]] std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& situation);
 
 }  // namespace relievo
