@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the player's small files (places, volume, screenshots) on a thread of its own: the film never waits for a
+// Writes the player's small files (positions, volume, screenshots) on a thread of its own: the film never waits for a
 // disk.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace relievo {
 // `give` and `finish`: from one thread.
 class FileWriter {
  public:
-  static constexpr std::size_t kMost = 8;                             // that wait
+  static constexpr std::size_t kMost = 8;                             // waiting
   static constexpr Duration kLastPatience = std::chrono::seconds(2);  // at the end, for all of them
   enum class Where : std::uint8_t { OwnThread, AtOnce };              // AtOnce: within `give`, for simulated time
 
@@ -31,11 +31,11 @@ class FileWriter {
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
-  // Never waits. `write` is called soon, after those given before it, and tells its failure itself. It must own all
-  // that it uses, and ask the file system only through platform/files, so that it can be ended. One that waits under
-  // the same name is replaced; an empty name is nobody's. False: too many wait, or this is finished.
+  // Never waits. `write` is called soon, after those queued before it, and reports its own failure. It must own all
+  // that it uses, and access the file system only through platform/files, so that it can be cancelled. A waiting write
+  // with the same name is replaced; writes with an empty name are not. False if too many wait, or after `finish`.
   bool give(const std::string& name, std::function<void()> write);
-  // Waits until all is written, but no longer than the last patience: what is not written by then fails with Cancelled.
+  // Waits until all is written, at most for kLastPatience: whatever is not written by then fails with Cancelled.
   void finish();
 
  private:
@@ -54,7 +54,7 @@ class FileWriter {
   std::thread thread_;
 };
 
-// For who is called by `give`: the file appears whole or not at all, and the end of the writer ends the waiting.
+// For use in a `write` function: the file appears whole or not at all, and `finish` cancels the waiting.
 [[nodiscard]] Result<void> writeFile(const std::string& path, std::string_view text,
                                      Existing existing = Existing::Replace);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects what the report tells: states, films and faults. The player never reads it back.
+// Collects the contents of the report: states, films and faults. The player never reads them back.
 #pragma once
 
 #include <functional>
@@ -15,13 +15,13 @@ namespace relievo {
 // The player's thread only.
 class Journal {
  public:
-  // Called for each fault. `fresh`: the first of its name, to be shown to the viewer.
+  // Called for each fault. `fresh`: the first fault of its name, which is shown to the viewer.
   using Listener = std::function<void(const FaultEntry& fault, MonotonicTime when, bool fresh)>;
 
   explicit Journal(const Clock& clock, Listener listener = {})
       : clock_(clock), listener_(std::move(listener)), began_(clock.now()) {}
 
-  // Sets the time from which all others count.
+  // Sets the time from which all other times count.
   void begin() { began_ = clock_.now(); }
   [[nodiscard]] MonotonicTime began() const noexcept { return began_; }
   [[nodiscard]] double sinceBegin(MonotonicTime time) const noexcept { return toSeconds(time - began_); }
@@ -35,7 +35,7 @@ class Journal {
   void note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when = {});
   // A fault that stops the film; the caller logs it.
   void noteStop(const std::string& what);
-  // For the report alone: it has been logged elsewhere.
+  // For the report alone: the fault has been logged elsewhere.
   void noteQuietly(const std::string& what, const std::string& done);
 
   // The states, films and faults so far. The player's parts add the rest of the report.

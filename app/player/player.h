@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plays films: the loop over the player's parts, and the state, which changes by state_table alone.
+// Plays films: the loop over the player's parts, and the state, which changes only by state_table.
 #pragma once
 
 #include <atomic>
@@ -39,24 +39,24 @@ struct PlayerConfig {
   std::vector<std::string> more;  // films or lists to play after it
   DisplayConfig display;
   StereoSettings stereo;
-  std::optional<DisplayVolume> volume;  // nothing: the default one of the picture's shape
+  std::optional<DisplayVolume> volume;  // nullopt: the default volume, in the picture's shape
   KeyTable keys = KeyTable::usual();
-  KeyBoard held = KeyBoard::Remote;  // what the viewer has in hand, for the names of keys
-  bool has_mouse = false;            // a window's
-  bool mouse_touches = false;        // it is the finger
+  KeyBoard held = KeyBoard::Remote;  // what the viewer uses, for the names of keys
+  bool has_mouse = false;            // of a window
+  bool mouse_touches = false;        // the mouse is the finger
   bool loop = false;
   bool osd = true;           // bar, keys and notices over the picture
-  std::string volume_path;   // the volume of each sound output is kept there; empty: each run begins at 100 %
-  std::string sound_device;  // what it is kept by
+  std::string volume_path;   // file in which the volume of each sound output is kept; empty: each run begins at 100 %
+  std::string sound_device;  // the key for that volume
   std::optional<double> volume_percent;
-  bool stays = false;                    // without a film it waits for the next one, until it is asked to quit
-  std::optional<BrowserConfig> browser;  // without a film it shows the films of these folders
-  std::string resume_path;  // where each film was left is kept there; empty: every film begins at its beginning
-  std::optional<Duration> duration;  // of the machine's time
+  bool stays = false;                    // without a film, waits for the next one until asked to quit
+  std::optional<BrowserConfig> browser;  // without a film, shows the films of these folders
+  std::string resume_path;  // file in which positions in films are kept; empty: every film begins at its beginning
+  std::optional<Duration> duration;  // of the run, in machine time
   bool own_threads = true;           // false: reader and ticks run inside `step`, for simulated time
 };
 
-// Borrowed; they must outlive the player. Null: there is none.
+// Borrowed; they must outlive the player. Null: not there.
 struct PlayerParts {
   Clock& clock;
   Display& display;
@@ -80,19 +80,19 @@ class Player {
   Player(PlayerConfig config, PlayerParts parts);
   ~Player();
 
-  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Once. Fails for a lost display,
-  // and when the last film or one of those in the configuration could not be played; those after it were played all the
-  // same. One of a list's only counts if it was the last: it is in the report.
+  // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Call once. Fails if the display is
+  // lost, and if the last film, or one named in the configuration, could not be played; the films after it are played
+  // all the same. A failed film of a list counts only if it was the last; the report names it.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
   // changes nothing.
   void obey(const PlayerCommand& command, MonotonicTime now);
-  // Why this command can do nothing now; nullopt: it can.
+  // Why this command has no effect now; nullopt: it has one.
   [[nodiscard]] std::optional<std::string> refusal(const PlayerCommand& command) const;
-  // What has happened so far. On its thread.
+  // The report so far. On its thread.
   [[nodiscard]] PlayReport report() const;
 
-  // What is going on, and the URL of the film; empty if there is none. On its thread.
+  // The present state, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;
   // The list of films, while it is shown; else null.
   [[nodiscard]] const FilmShelf* list() const { return state_ == PlayerState::Browsing ? &browser_->shelf() : nullptr; }
@@ -184,7 +184,7 @@ class Player {
   FilmScreen screen_;
   SeekTimes seeks_;
   KeyReader keys_;
-  std::set<std::uint16_t> unbound_;  // keys without a meaning that were told
+  std::set<std::uint16_t> unbound_;  // keys without a meaning that were reported
   Loudness loudness_;
   std::optional<Browser> browser_;
   bool browsed_ = false;  // the list was shown
@@ -196,7 +196,7 @@ class Player {
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens
-  std::optional<Failure> missed_;   // likewise, of the first of those that were asked for by name
+  std::optional<Failure> missed_;   // likewise, of the first film that was named by the user
   bool display_failed_ = false;     // no other film can be played either
   bool quitting_ = false;
   std::optional<MonotonicTime> ended_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run of the player did, as numbers; as JSON for programs and as a few lines for people.
+// The results of a player's run as numbers; as JSON for programs and as a few lines for people.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@
 
 namespace relievo {
 
-// Something that went wrong, or had to be done without, and what the player did about it.
+// A fault, or something missing, and what the player did about it.
 struct FaultEntry {
-  double time_s = 0;  // since the start; of the first one when it came several times running
+  double time_s = 0;  // since the start; of the first one if it repeated
   std::string what;
   std::string done;
   std::uint64_t count = 1;
 };
 
-// The second finger's part of the report, where two devices were asked for.
+// The second finger's part of the report, if two devices were requested.
 struct SecondFinger {
   HapticSummary haptic;
   std::optional<double> first_touch_ms;
@@ -41,12 +41,12 @@ struct PlayReport {
   PairCounters pairs;
   DisplayVolume volume;
   double wall_s = 0;
-  double media_s = 0;  // shown, pauses left out
+  double media_s = 0;  // shown, without pauses
 
   std::string display, display_mode;
   std::string stereo;
   int surface_width = 0, surface_height = 0;
-  bool imported = false;      // the last picture's colour, from dma-bufs
+  bool imported = false;      // whether the last picture's colour was taken from dma-bufs
   std::size_t triangles = 0;  // of the relief, in the last picture
   double picture_error_px = 0;
   double mesh_ms = 0, draw_ms = 0;  // a picture's, smoothed
@@ -64,7 +64,7 @@ struct PlayReport {
   std::vector<FaultEntry> faults;
   std::vector<SeekEntry> seeks;
 
-  // The last one again is counted there. True for the first of its name: that one is worth a line.
+  // A repetition of the last fault is only counted. True for the first fault of its name, which is printed.
   bool addFault(double time_s, std::string what, std::string done);
 };
 

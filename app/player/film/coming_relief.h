@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the subtitles will have behind them in the next pictures, as far as the next cut.
+// The relief of the next pictures, up to the next cut, for placing the subtitles.
 #pragma once
 
 #include <deque>
@@ -19,9 +19,9 @@ class ComingRelief {
   // `present` is shown next, `coming` after it. True if `present` does not continue the picture before it.
   [[nodiscard]] bool follow(const Frame& present, const DepthComing& coming, const DepthCalibration& calibration,
                             const DisplayVolume& volume);
-  // What comes after the present picture; it points into this object, until the next `follow` or `forget`.
+  // What comes after the present picture. It points into this object and is valid until the next `follow` or `forget`.
   [[nodiscard]] ReliefAhead ahead() const noexcept;
-  // The film goes on elsewhere.
+  // Call when the film continues elsewhere.
   void forget();
 
  private:
@@ -31,9 +31,9 @@ class ComingRelief {
   static constexpr std::size_t kBefore = 2;
   [[nodiscard]] bool add(const Frame& depth, const DepthCalibration& calibration, const DisplayVolume& volume);
 
-  std::deque<Seen> seen_;     // at most kBefore before the present one, and what comes
-  std::size_t present_ = 0;   // its place in `seen_`
-  std::deque<int> pictures_;  // how many pictures after the present one each of those that come is
+  std::deque<Seen> seen_;     // at most kBefore before the present picture, then the coming ones
+  std::size_t present_ = 0;   // index of the present picture in `seen_`
+  std::deque<int> pictures_;  // for each coming picture, its distance from the present one in pictures
   bool more_ = true;
   ShotFinder shots_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player shows differently from what the film holds.
+// Ways in which the player shows a film differently from its content.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// One line each: fields that are made whole, HDR that is mapped to SDR, wide colour that is
-// shown as it is, tracks that are not used.
+// One line each: fields that are deinterlaced, HDR that is mapped to SDR, wide colour that is shown unchanged, tracks
+// that are not used.
 [[nodiscard]] std::vector<std::string> changesOf(const FilmInfo& film);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player tells of a film: how it was read, and what happens to its sources and decoders while it plays.
+// Reports how a film was read, and what happens to its sources and decoders while it plays.
 #pragma once
 
 #include <optional>
@@ -17,18 +17,18 @@ class FilmNotes {
  public:
   explicit FilmNotes(Journal& journal) : journal_(journal) {}
 
-  // The film that is spoken of from now on; nothing has been told of it.
+  // Starts a film: nothing has been reported about it yet.
   void begin(const SourceOptions& source);
-  // The film is still being opened: a long wait is told once.
+  // The film is still being opened: a long wait is reported once.
   void waits(MonotonicTime now);
   void opened(const FilmInfo& info);
-  // A source lost and found again; a decoder that begins anew.
+  // A source was lost or found again, or a decoder was restarted.
   void happened(const FilmFeed::News& news);
   // A seek that the source refused.
   void refused(const Error& seek);
-  // The machine does not decode all pictures in time; told once.
+  // The machine does not decode all pictures in time; reported once.
   void slow();
-  // After the film's end: what of it was damaged or missing.
+  // After the film's end: which parts of it were damaged or missing.
   void missing(const PairCounters& pairs);
 
  private:

@@ -37,10 +37,10 @@ class FilmPlayback {
   // `output` may be null. If `backends` has no threads of its own, call `read` to do the reader's work.
   FilmPlayback(PairReader::Backends backends, AudioOutput* output, const Clock& clock, Journal& journal);
 
-  // Who hears of the depth of a live film as soon as it has been read; on the reader's thread. Before `begin`.
+  // Sets a callback for the depth of a live film, called on the reader's thread as soon as it was read. Before `begin`.
   void hearLive(std::function<void(const FramePair&)> hear) { feed_.hearLive(std::move(hear)); }
   void begin();
-  // Without a reader thread: reads everything that is wanted now.
+  // Without a reader thread: does all reading that is due.
   void read();
   void silence() noexcept { sound_.close(); }
   void stop() noexcept;
@@ -89,7 +89,7 @@ class FilmPlayback {
   // Pause and resume at once; after `start`.
   [[nodiscard]] Result<void> pause(MonotonicTime now);
   [[nodiscard]] Result<void> resume(MonotonicTime now);
-  // Makes the next picture the present one; while paused. False if there is none or it is not buffered yet.
+  // While paused: makes the next picture the present one. False if there is none or it is not buffered yet.
   [[nodiscard]] bool stepOn(MonotonicTime now);
   void setRate(double rate, MonotonicTime now);
   [[nodiscard]] double rate() const noexcept { return rate_; }
@@ -101,7 +101,7 @@ class FilmPlayback {
 
   // The next subtitle that has been read.
   [[nodiscard]] std::optional<Subtitle> takeSubtitle() { return feed_.takeSubtitle(); }
-  // Other tracks, by their places in `info`; follow it by a seek to where the film is.
+  // Chooses other tracks, by their places in `info`; seek to the present position afterwards.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   [[nodiscard]] Sound& soundOutput() noexcept { return sound_; }
   [[nodiscard]] Duration soundDelay() const noexcept { return sound_.delay(); }
@@ -114,7 +114,7 @@ class FilmPlayback {
   void noteShown();
 
   [[nodiscard]] const FramePair& picture() const noexcept { return head_.present(); }
-  // The present picture has not been shown; false also where only its depth is new (FramePair::stands).
+  // True if the present picture has not been shown; false if only its depth is new (FramePair::stands).
   [[nodiscard]] bool hasNewPicture() const noexcept { return head_.colors() != shown_color_; }
   // The film's first picture was shown or is about to be.
   [[nodiscard]] bool begun() const noexcept { return begun_; }
@@ -122,7 +122,7 @@ class FilmPlayback {
   [[nodiscard]] bool takeJump() noexcept { return std::exchange(jumped_, false); }
   // The depth for touch; empty at a rate over 1.
   [[nodiscard]] DepthAround depth() const;
-  // The depth of the pictures that come, for what is shown in front of it.
+  // The depth of the coming pictures, for subtitles in front of it.
   [[nodiscard]] DepthComing coming() const;
   [[nodiscard]] std::optional<ClockSample> clock() const noexcept { return clock_.sample(); }
   // When the next picture is due; MonotonicTime::max() while the film is paused.
@@ -131,7 +131,7 @@ class FilmPlayback {
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;
   // The target of a pending seek, else `place`, so that several presses of a seek key add up.
   [[nodiscard]] MediaTime goal(MonotonicTime now) const;
-  // The time of the last picture that is decoded.
+  // The time of the last decoded picture.
   [[nodiscard]] MediaTime bufferedUntil() const;
   // `place` if it should be kept for later: the film has a known length and no seek is pending.
   [[nodiscard]] std::optional<MediaTime> placeToKeep(MonotonicTime now) const;
@@ -145,13 +145,13 @@ class FilmPlayback {
   [[nodiscard]] PairCounters pairs() const;
   [[nodiscard]] Duration played() const noexcept { return played_.total(); }
   [[nodiscard]] std::optional<LiveLatency> live() const { return live_.summary(); }
-  // A camera's picture, or another live film without sound: pictures are shown as they come, and the clock is that of
-  // touch, as far behind as its look-ahead asks for (LivePace). With sound, or sent ahead of its time, it is
-  // played like any other.
+  // A camera's picture, or another live film without sound: pictures are shown as they arrive, and the clock follows
+  // touch, as far behind as its look-ahead needs (LivePace). With sound, or if frames are sent ahead of time, the film
+  // is played like any other.
   [[nodiscard]] bool isLive() const noexcept { return pace_.asItComes() && rate_ == 1; }
   // How long the surface waits for frames; chosen when the first picture is taken.
   [[nodiscard]] LookAhead lookAhead() const noexcept { return isLive() ? pace_.lookAhead() : LookAhead{}; }
-  // For the ticks of a live film; null if it is held, or another.
+  // For the ticks of a live film; null if it is paused, or not live.
   [[nodiscard]] LiveTimes* liveTimes() noexcept { return isLive() && !held_ ? &live_ : nullptr; }
   [[nodiscard]] SoundSummary sound() const { return sound_.summary(); }
   [[nodiscard]] ReliefSummary reliefs() const { return reliefs_.summary(); }
@@ -190,11 +190,11 @@ class FilmPlayback {
   double rate_ = 1;  // over 1: by key frames, without touch
   bool jumped_ = true;
   std::optional<MediaTime> target_;         // of a seek whose first picture has not been shown yet
-  std::optional<MonotonicTime> dry_since_;  // since when no picture has been buffered
+  std::optional<MonotonicTime> dry_since_;  // since when no picture is buffered
   bool starved_ = false;                    // the picture has stopped while the clock runs on
   std::uint64_t shown_color_ = 0;           // Playhead::colors, of the picture on the screen
   DecodePace decode_pace_;
-  bool leaves_out_ = false;  // what the feed was told last
+  bool leaves_out_ = false;  // last argument of the feed's leaveOut
 
   PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pace of a live film: which moment of it is felt now, and when its next picture will be there. Pure.
+// The pace of a live film: the moment of it that is felt now, and the time of its next picture. Pure.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@
 
 namespace relievo {
 
-// Touch is as young as its frames allow (Arrivals), but not more than kMostBefore ahead of the pictures, which take
-// time to be drawn. Pictures are shown as they come, but not more than kMostBehind ahead of touch. One thread.
+// Touch is as recent as its frames allow (Arrivals), but not more than kMostBefore ahead of the pictures, which take
+// time to be drawn. Pictures are shown as they arrive, but not more than kMostBehind ahead of touch. One thread.
 class LivePace {
  public:
   void forget() noexcept { *this = {}; }
-  // The next pair that has been read, in order. A pair that was heard before does not count again.
+  // Takes the next pair that was read, in order. A pair that was taken before does not count again.
   void hear(const FramePair& pair) noexcept;
-  // Enough has come to choose a look-ahead, and no longer from what the source had piled up.
+  // True if enough pairs arrived to choose a look-ahead, not counting those that the source had buffered.
   [[nodiscard]] bool settled() const noexcept;
-  // Chooses the look-ahead by what has come so far; once, before the film begins; a later call repeats the answer.
-  // False if pairs came before their time: then the source has a buffer of its own, and its film is played like any
+  // Chooses the look-ahead from the arrivals so far; once, before the film begins; a later call repeats the result.
+  // False if pairs arrived before their time: then the source has a buffer of its own, and its film is played like any
   // other.
   bool choose() noexcept;
-  // What `choose` said; false before it.
+  // The result of `choose`; false before it.
   [[nodiscard]] bool asItComes() const noexcept { return as_it_comes_.value_or(false); }
   [[nodiscard]] const LookAhead& lookAhead() const noexcept { return ahead_; }
   // A picture was on the screen when it was this old.
@@ -34,7 +34,7 @@ class LivePace {
 
   // When media time 0 was taken.
   [[nodiscard]] MonotonicTime origin() const noexcept { return origin_; }
-  // How old the surface should be that is felt, and the moment of the film that this is.
+  // The age that the felt surface should have, and the corresponding moment of the film.
   [[nodiscard]] Duration age() const noexcept;
   [[nodiscard]] MediaTime wanted(MonotonicTime now) const noexcept;
   // When the next pair is expected.
@@ -49,7 +49,7 @@ class LivePace {
   std::optional<MediaTime> newest_;
   MonotonicTime origin_;
   LookAhead ahead_;
-  std::optional<bool> as_it_comes_;       // what `choose` said
+  std::optional<bool> as_it_comes_;       // the result of `choose`
   int since_choice_ = 0;                  // pairs
   std::array<Duration, kShown> shown_{};  // the ages of the last pictures
   std::size_t shown_count_ = 0;

@@ -15,20 +15,20 @@ struct LiveLatency {
   struct Times {
     double p50_ms = 0, p99_ms = 0, max_ms = 0;
   };
-  Times picture;               // a picture's age as it comes onto the screen
-  std::optional<Times> touch;  // the surface's age, in every tick; nothing without touch
-  // As a picture comes onto the screen: how much newer the surface is, and how much older.
+  Times picture;               // age of a picture when it appears on the screen
+  std::optional<Times> touch;  // age of the surface in every tick; nullopt without touch
+  // When a picture appears: how much newer the surface is than the picture, and how much older.
   Times before, behind;
 };
 
 class LiveTimes {
  public:
-  // The film plays from now on; media time 0 was taken at `origin`. Ticks before that do not count.
+  // The film plays from now on; media time 0 was captured at `origin`. Ticks before that do not count.
   void begin(MonotonicTime origin, MonotonicTime now) noexcept {
     origin_ = origin;
     begun_ = now;
   }
-  // A picture has come onto the screen at this age, when the surface under the finger had that one.
+  // A picture of this age has appeared on the screen, while the surface under the finger had the age `surface`.
   void shown(Duration picture, Duration surface) noexcept {
     picture_.add(picture);
     before_.add(std::max(picture - surface, Duration(0)));
@@ -38,7 +38,7 @@ class LiveTimes {
   void felt(MonotonicTime tick, MediaTime surface) noexcept {
     if (tick >= begun_) touch_.add(tick - (origin_ + surface.time_since_epoch()));
   }
-  // Nullopt if no picture was counted: the film is not live.
+  // Nullopt if no picture was counted, as for a film that is not live.
   [[nodiscard]] std::optional<LiveLatency> summary() const {
     if (picture_.count() == 0) return std::nullopt;
     LiveLatency latency{times(picture_), std::nullopt, times(before_), times(behind_)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A look into a source: what is in it, what its depth means, and what playing it needs.
+// Examines a source: its contents, the meaning of its depth, and what playing it needs.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace relievo {
 
-// The first pairs, looked at.
+// Statistics of the first pairs.
 struct DepthUse {
   int pairs = 0;
   std::uint32_t lowest_code = 0, highest_code = 0;
@@ -28,13 +28,13 @@ struct DepthUse {
 struct ProbeResult {
   std::vector<ProbedTrack> tracks;
   std::vector<Chapter> chapters;   // of the colour's source
-  std::optional<Failure> failure;  // the tracks are there, but no film was found in them, and the rest is empty
+  std::optional<Failure> failure;  // the source has tracks, but no film was found in them; the rest is empty
   FilmInfo film;
   FrameRate rate;      // of the colour
   PairCounters pairs;  // of the first ones
   DisplayVolume volume;
   DepthUse depth;
-  std::optional<TouchPlan> touch;  // what the finger needs; nothing without depth
+  std::optional<TouchPlan> touch;  // the touch plan; nullopt without depth
   std::string decoder;             // VideoDecoder::description
   std::vector<std::string> needs;  // one line each
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tracks and chapters of a source, as `relievo probe` tells them.
+// The tracks and chapters of a source, for `relievo probe`.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

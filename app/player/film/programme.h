@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of films: which one is played, which ones come before and after it, and where the viewer left each. Does no
-// I/O but for the file of positions (Resume).
+// The list of films: which one is played, its neighbours, and where the viewer left each. Does no I/O except for the
+// file of positions (Resume).
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ namespace relievo {
 
 class Programme {
  public:
-  static constexpr int kMostLists = 20;  // a list may hold lists, but not without end
+  static constexpr int kMostLists = 20;  // a list may contain lists, but not endlessly
   static constexpr Duration kKeepPeriod = std::chrono::seconds(2);
-  enum class Way : std::uint8_t { Forward, Back };  // which neighbour is tried if a film cannot be played
+  enum class Way : std::uint8_t { Forward, Back };  // the direction to the next film tried if one cannot be played
 
   // `resume_path`: the file of positions; if empty, each film starts from the beginning. `files` must outlive it.
   Programme(const std::string& resume_path, FileWriter& files, bool loop);
@@ -44,8 +44,8 @@ class Programme {
   [[nodiscard]] std::optional<std::size_t> afterEnd() const noexcept;
   // What to play when the present film has failed: the next one in the viewer's direction. Nullopt: nothing.
   [[nodiscard]] std::optional<std::size_t> afterFault() const noexcept;
-  // The present film has failed and `other` is tried: returns the direction to it. Going round to the first film
-  // forgets that a film was seen, so that a looping list ends once none of its films can be played.
+  // Call when the present film has failed and `other` is tried: returns the direction to it. Wrapping round to the
+  // first film forgets that a film was seen, so that a looping list ends once none of its films can be played.
   [[nodiscard]] Way passOver(std::size_t other) noexcept;
 
   [[nodiscard]] const PlaylistEntry& film() const noexcept { return films_[present_]; }
@@ -54,7 +54,7 @@ class Programme {
   [[nodiscard]] Way way() const noexcept { return way_; }
   // A film of this list was shown: the list as a whole has not failed.
   [[nodiscard]] bool seenOne() const noexcept { return seen_one_; }
-  // All its films are those of `begin`: none comes from a list.
+  // True if all films were passed to `begin` and none comes from a list.
   [[nodiscard]] bool named() const noexcept { return lists_ == 0; }
   // `begin` has been called.
   [[nodiscard]] bool asked() const noexcept { return asked_; }
@@ -63,7 +63,7 @@ class Programme {
 
   // Where the viewer left the present film, whose length is `length`; nullopt if unknown or if the film has no length.
   [[nodiscard]] std::optional<MediaTime> whereLeft(Duration length) const;
-  // What each film that was left is kept by (Resume::keyOf) and where in seconds, the last one first.
+  // The films that the viewer left: the key of each (Resume::keyOf) and the position in seconds, the last one first.
   [[nodiscard]] std::vector<std::pair<std::string, double>> leftFilms() const;
   // Keeps the viewer's position, at most every kKeepPeriod. Nullopt: unknown, nothing is kept.
   void keep(std::optional<MediaTime> place, MonotonicTime now);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the viewer left each film: kept in a file that survives a power cut.
+// Where the viewer left each film, stored in a file that survives a power cut.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@
 
 namespace relievo {
 
-// JSON: [["URL", seconds], ..], the film seen last first. Written whole or not at all, by the file writer. A damaged
-// file counts as empty and is replaced; one that cannot be read stays as it is. What cannot be read or written is told
-// once, in the log.
+// JSON: [["URL", seconds], ..], the film seen last first. The file writer writes it whole or not at all. A damaged file
+// counts as empty and is replaced; one that cannot be read is left unchanged. A failure to read or write is logged
+// once.
 class Resume {
  public:
   static constexpr std::size_t kMostFilms = 200;
-  static constexpr Duration kLeast = std::chrono::seconds(2);  // nobody has left a film so early
+  static constexpr Duration kLeast = std::chrono::seconds(2);  // earlier positions are not kept
 
   // $STATE_DIRECTORY (of a service), else $XDG_STATE_HOME/relievo, else ~/.local/state/relievo; empty without a home.
   [[nodiscard]] static std::string defaultPath();
@@ -27,15 +27,15 @@ class Resume {
   // `files` must outlive it.
   Resume(std::string path, FileWriter& files);
 
-  // What a film is kept by: a path without its detours from the root on, an address as it is.
+  // The key under which a film's position is kept: its absolute path without "..", or its address unchanged.
   [[nodiscard]] static std::string keyOf(const std::string& url);
 
   // The key of the film that was seen last.
   [[nodiscard]] std::optional<std::string> last() const;
   [[nodiscard]] std::optional<MediaTime> find(const std::string& url) const;
-  // All of them: keys and seconds, the film seen last first.
+  // All keys and seconds, the film seen last first.
   [[nodiscard]] std::vector<std::pair<std::string, double>> all() const;
-  // Never waits. The newest position is on the disk soon afterwards.
+  // Never waits. The newest position is written to disk soon afterwards.
   void keep(const std::string& url, MediaTime position);
   // The film has been seen to its end.
   void forget(const std::string& url);
