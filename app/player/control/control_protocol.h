@@ -2,18 +2,18 @@
 // The protocol between programs and the player: one JSON object per line, in both directions. Pure.
 //
 // A program asks:   {"do": "seek +10"}      any words of app/player/control/command.h, and:
-// {"do": "status"}        the player's state; "second_finger" is null without a second device
-// {"do": "metrics on"}    counters and histograms, once a second until "metrics off"
-// {"do": "fault haptic unplug"}  of a mock device; the answer to an unknown fault lists the known ones
+//                   {"do": "status"}        the player's state; "second_finger" is null without a second device
+//                   {"do": "metrics on"}    counters and histograms, once a second until "metrics off"
+//                   {"do": "fault haptic unplug"}  of a mock device; the answer to a wrong one lists all
 // and optionally an "id": a whole number, or a text of at most 64 bytes, which the answer repeats.
 //
 // The player answers each line in turn: {"id": .., "ok": true}, or {"id": .., "ok": false, "error": ".."}, also for a
 // command that has no effect now, such as "pause" without a film. True means that the command was accepted; events
 // report its effect. Events go to all clients:
-// {"event": "state", "state": "playing", "time_s": 12.3}   seconds since the player started
-// {"event": "fault", "what": "..", "done": "..", "time_s": 12.3}   also for recoveries: "display back"
+//   {"event": "state", "state": "playing", "time_s": 12.3}   seconds since the player started
+//   {"event": "fault", "what": "..", "done": "..", "time_s": 12.3}   also for recoveries: "display back"
 // and to those that asked for them:
-// {"event": "metrics", ..}   with the names of the report
+//   {"event": "metrics", ..}   with the names of the report
 #pragma once
 
 #include <expected>
