@@ -25,25 +25,25 @@
 
 namespace relievo {
 
-// The player's thread only, the display's. Blocks only for the display's refresh. A function that draws fails only with
-// errors that no retry helps: Unsupported is the film's fault, any other error the display's.
+// Use on the player's thread only, which is the display's. Blocks only for the display's refresh. A function that draws
+// fails only with errors that no retry helps: Unsupported is caused by the film, any other error by the display.
 class FilmScreen {
  public:
-  // `osd`: whether anything is written over the picture.
+  // `osd`: whether text is drawn over the picture.
   FilmScreen(Display& display, const DisplayConfig& config, const StereoSettings& stereo, bool osd, const Clock& clock,
              Journal& journal, FileWriter& files) noexcept
       : picture_(display, config, stereo), osd_(osd), clock_(clock), journal_(journal), files_(files) {}
 
-  // A missing screen (NotFound) is noted and is no failure.
+  // A missing screen (NotFound) is noted in the journal and is no failure.
   [[nodiscard]] Result<void> open();
   void close() noexcept { picture_.close(); }
   // Once a round. Cancelled if the viewer has closed the window.
   [[nodiscard]] Result<void> attend(MonotonicTime now);
 
-  // A film begins: how to read its depth, the volume that it fills, and its frame period.
+  // A film begins: sets how to read its depth, the volume that it fills, and its frame period.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
   void announce(const AnnouncedFilm& film) { picture_.announce(film); }
-  // What the viewer has dropped on the window since the last call.
+  // Files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
   // Draws a picture of the film; `coming` follows it. False if the screen is lost: the picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, const DepthComing& coming, const FingerMarks& fingers,
@@ -52,10 +52,10 @@ class FilmScreen {
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }
   void delaySubtitles(Duration delay);
-  // The film goes on elsewhere: after an opening or a seek.
+  // Call when the film continues elsewhere: after an opening or a seek.
   void jump();
-  // Has the picture saved that is shown, without what is written over it. `title`: of the file's name. A notice tells
-  // how it went.
+  // Saves the shown picture, without the text over it. `title`: for the file's name. A notice reports success or
+  // failure.
   void saveScreenshot(const std::string& title);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
@@ -64,13 +64,13 @@ class FilmScreen {
   [[nodiscard]] Result<void> redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now);
   // Draws a black picture: there is no film.
   [[nodiscard]] Result<void> clear(const FingerMarks& fingers, MonotonicTime now);
-  // Updates what is written over the picture, from the first picture on, and the list of films.
+  // Updates the text over the picture, from the first picture on, and the list of films.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
-  // The statistics, if they are wished for.
+  // True if the viewer has asked for the statistics.
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
   void setStatistics(ScreenRows rows) { statistics_ = std::move(rows); }
-  // The film's place, 0 to 1, that the mouse is over on the bar; nullopt where no bar is. A mouse near its place shows
-  // it. A press on the bar holds it: until the button is released, the mouse may leave it.
+  // The film's position, 0 to 1, under the mouse on the bar; nullopt if there is no bar. A mouse near the bar's place
+  // shows the bar. A press on the bar holds it: until the button is released, the mouse may leave it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
 
   // The film that the mouse is over in the list of films; nullopt: none.
@@ -79,7 +79,7 @@ class FilmScreen {
 
   // The keys, page by page; see ScreenText.
   void turnKeys(ScreenRows rows);
-  // The viewer has pressed a key: the text is shown for a while.
+  // Call when the viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }
   // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, SubtitleSizeBy, Info and Statistics;
@@ -89,7 +89,7 @@ class FilmScreen {
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }
   [[nodiscard]] const std::string& aspectWord() const noexcept { return aspect_word_; }
   [[nodiscard]] DisplayCapabilities capabilities() const noexcept { return picture_.capabilities(); }
-  // As drawn last.
+  // The finger marks as drawn last.
   [[nodiscard]] const FingerMarks& fingers() const noexcept { return drawn_fingers_; }
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return picture_.volume(); }
   // When the first picture was shown.
@@ -108,8 +108,8 @@ class FilmScreen {
   Picture picture_;
   DepthCalibration calibration_;
   ComingRelief coming_;
-  std::string screenshot_title_;                 // of the one that is due
-  std::deque<std::future<std::string>> saving_;  // screenshots that are being written: what to tell of them
+  std::string screenshot_title_;                 // for the screenshot that is due
+  std::deque<std::future<std::string>> saving_;  // screenshots being written: the notice for each
   ScreenText text_;
   const bool osd_;
   const Clock& clock_;
@@ -122,7 +122,7 @@ class FilmScreen {
   std::string aspect_word_ = "film";
   std::size_t next_aspect_ = 0;
   bool drags_bar_ = false;
-  bool redraw_ = false;  // even if no finger has moved
+  bool redraw_ = false;  // true: redraw even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;
   std::optional<MonotonicTime> first_shown_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long texts in short lines.
+// Breaks long texts into short lines.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// In lines of at most so many cells (a letter of Chinese or Japanese takes two), broken at spaces, dashes, dots and
-// underscores if one is near; what does not find room is left out in the middle of the last line.
+// Lines of at most `cells` cells (a letter of Chinese or Japanese takes two), broken at a space, dash, dot or
+// underscore if one is near. Text that does not fit is left out in the middle of the last line.
 [[nodiscard]] std::vector<std::string> folded(std::string_view text, int cells, std::size_t most_lines);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of keys as a part of the screen's script. Pure.
+// The page of keys as part of the screen's script. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +10,16 @@
 
 namespace relievo {
 
-// In the largest letters that find room for every word; the line at the top is free for a notice beside its heading. In
-// a view of few pixels the rows are parted into pages, so that the letters stay legible.
+// Uses the largest letters in which every word fits; the line at the top is left free for a notice beside its heading.
+// In a view of few pixels the rows are divided into pages, so that the letters stay legible.
 struct KeysView {
   const ScreenRows& rows;
-  std::size_t page = 0;  // from 0 on; the last one for what is beyond it
-  std::string help_key;  // turns the page
+  std::size_t page = 0;  // from 0 on; if too large, the last page is shown
+  std::string help_key;  // key that shows the next page
   int view_height = 0;   // pixels; 0: not known
 };
 void addKeys(Script& script, const KeysView& view);
-// How many pages they are.
+// The number of pages.
 [[nodiscard]] std::size_t keyPages(const ScreenRows& rows, double aspect, int view_height);
 
 }  // namespace relievo

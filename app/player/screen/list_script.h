@@ -12,9 +12,9 @@
 
 namespace relievo {
 
-// `help_key` shows all keys.
+// `help_key`: the key that shows all keys.
 void addList(Script& script, const ScreenList& list, const std::string& help_key);
-// The posters of its rows, for a view of `frame`: over what `addList` draws.
+// The posters of the list's rows, for a view of `frame`, to be drawn over the result of `addList`.
 [[nodiscard]] std::vector<TextPicture> postersOf(const ScreenList& list, const TextFrame& frame);
 // The film at a place of the view, `across` and `down` from 0 to 1; nullopt if none is there.
 [[nodiscard]] std::optional<std::size_t> listFilmAt(const ScreenList& list, double across, double down,

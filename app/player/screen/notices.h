@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is shown after a key that changes a value.
+// The notice shown after a key that changes a value.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// `facts`: as they are after the command. Nothing for commands that show in other ways: on the bar, in the picture.
+// `facts`: as they are after the command. Nullopt for commands whose effect shows in other ways: on the bar, in the
+// picture.
 [[nodiscard]] std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenFacts& facts);
 
 }  // namespace relievo

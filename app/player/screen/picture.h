@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from a pair to the screen: the display, the renderer on it, and what happens when the screen goes away.
+// Puts pairs on the screen: the display, its renderer, and the loss and return of the screen.
 #pragma once
 
 #include <memory>
@@ -22,15 +22,15 @@
 
 namespace relievo {
 
-// A display without GLES draws nothing, at its own pace. A display that is lost is tried again once a second: film and
-// touch go on meanwhile. Owner's thread only, the GL context's.
+// A display without GLES draws nothing, at its own pace. A lost display is reopened once a second, while film and touch
+// continue. Use on the owner's thread only, that of the GL context.
 class Picture {
  public:
   enum class Shown : std::uint8_t {
     OnScreen,
-    NoScreen,  // the screen is away
-    Lost,      // it went away just now
-    Back,      // it came back just now, and the picture is on it
+    NoScreen,  // the screen is unavailable
+    Lost,      // the screen has just become unavailable
+    Back,      // the screen has just returned, and shows the picture
   };
 
   Picture(Display& display, const DisplayConfig& config, const StereoSettings& stereo) noexcept
@@ -42,18 +42,18 @@ class Picture {
   [[nodiscard]] Result<void> open() { return display_.open(config_); }
   void close() noexcept;
 
-  // Known when the film is open. `frame_budget`: how long drawing may take.
+  // Call when the film is open. `frame_budget`: how long drawing may take.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
-  // A film begins: for the window's title and size.
+  // A film begins: sets the window's title and size.
   void announce(const AnnouncedFilm& film);
   void fillScreen(FullScreen wish) { display_.fillScreen(wish); }
   [[nodiscard]] bool isFullScreen() const noexcept { return display_.isFullScreen(); }
   [[nodiscard]] std::vector<std::string> takeDropped() { return display_.takeDropped(); }
-  // What `show` shows from now on; a reference is kept, for a screen that comes back.
+  // The pair that `show` shows from now on; a reference is kept for a screen that returns.
   void setPair(const FramePair& pair);
-  // Black, with whatever text there is, from the next `show` on.
+  // From the next `show` on: black, with the text if there is any.
   void clear() noexcept;
-  // What stands over the picture from the next `show` on.
+  // The text over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
   // Each is shown `delaySubtitles` later than its time in the film.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
@@ -61,32 +61,33 @@ class Picture {
   void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }
   // The next picture does not continue this one.
   void cut() noexcept { cut_ = true; }
-  // What follows the picture that is set, for the subtitles; its reliefs must live until the next call.
+  // The reliefs after the present picture, for the subtitles; they must live until the next call.
   void setAhead(const ReliefAhead& ahead) noexcept { ahead_ = ahead; }
-  // The next `show` keeps what it shows, without the display over it, for `takeCapture`.
+  // The next `show` keeps its picture, without the text over it, for `takeCapture`.
   struct Capture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
   };
   void capture() noexcept { capture_due_ = true; }
   [[nodiscard]] std::optional<Capture> takeCapture() noexcept { return std::exchange(captured_, std::nullopt); }
-  // Fails for what no retry helps: no renderer, a pixel format that cannot be drawn.
+  // Fails only if no retry helps: no renderer, or a pixel format that cannot be drawn.
   [[nodiscard]] Result<Shown> show(const FingerMarks& fingers, MonotonicTime now);
-  // Between pictures, often. True when the last one should be drawn anew; Lost when the screen has gone just now, and
-  // is tried again from `show`; Cancelled when the viewer has closed it.
+  // Call often between pictures. True if the last picture should be drawn again; Lost if the screen has just become
+  // unavailable (`show` then retries); Cancelled if the viewer has closed the window.
   [[nodiscard]] Result<bool> attend(MonotonicTime now);
-  // The next one that the surface takes; none while the screen is sent a 3D signal, which says how the picture lies.
+  // Switches to the next layout that the surface supports; does nothing while a 3D signal is sent, which fixes the
+  // layout.
   void nextLayout() noexcept;
   void setLayout(std::string_view word) noexcept;  // see app/player/screen/stereo_word.h
   void swapEyes() noexcept;
   void changeStrength(double by) noexcept;  // of the depth, 0 to 2
-  // What lies in the screen plane, in the volume: the rest stands before it or behind it.
+  // Moves the height in the volume that lies in the screen plane; the rest appears in front of it or behind it.
   void changeScreenPlane(double by_mm) noexcept;
   // Changes the size of the picture in its view, within 1 to 4.
   void changeZoom(double by) noexcept;
   // The width over the height that the picture is shown with; 0: its own.
   void setAspect(double aspect) noexcept;
-  // Once, when the surface has refused a layout: why. It is shown in another way then.
+  // After the surface has refused a layout, once: the reason. The picture is then shown in another layout.
   [[nodiscard]] const char* takeRefusal() noexcept { return std::exchange(refusal_, nullptr); }
 
   [[nodiscard]] bool away() const noexcept { return display_.state() == Display::State::Closed; }
@@ -121,8 +122,8 @@ class Picture {
   DisplayConfig config_;
   AnnouncedFilm film_;
   StereoSettings stereo_;
-  StereoSignal signal_ = StereoSignal::None;  // that is sent with the picture
-  bool signal_told_ = false;                  // that it is another one than was asked for
+  StereoSignal signal_ = StereoSignal::None;  // sent with the picture
+  bool signal_told_ = false;                  // it was reported that this signal is not the requested one
   const char* refusal_ = nullptr;
   DepthCalibration calibration_;
   DisplayVolume volume_;

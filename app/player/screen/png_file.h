@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// `rgb`: rows from the top, three bytes a pixel. The file appears whole or not at all, and replaces none.
+// `rgb`: rows from the top, three bytes a pixel. The file appears whole or not at all, and never replaces another one.
 [[nodiscard]] Result<void> writePng(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What there is to tell of a moment of playing.
+// The player's state at one moment, for the text on the screen.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace relievo {
 
-// `across` and `up`: the finger's place, from the middle of the picture, to the right and up; inside from -0.5 to 0.5.
+// `across` and `up`: the finger's position from the middle of the picture, to the right and up; inside from -0.5 to
+// 0.5.
 struct FingerFacts {
   std::string haptic;  // the device's name; empty: none
   bool contact = false;
@@ -24,15 +25,15 @@ struct FingerFacts {
 struct ScreenFacts {
   std::string title;
   double position_s = 0, duration_s = 0;  // duration 0: unknown
-  double buffered_s = 0;                  // up to here pictures are decoded
+  double buffered_s = 0;                  // pictures are decoded up to here
   PlayerState state = PlayerState::Boot;
   bool held = false;
   double rate = 1;
   bool loop = false;
-  std::size_t film = 1, films = 1;  // the how manieth of the list
+  std::size_t film = 1, films = 1;  // number in the list, and the list's length
   StereoSettings stereo;
   bool has_depth = false;
-  std::array<FingerFacts, 2> fingers;  // the second one is seldom there
+  std::array<FingerFacts, 2> fingers;  // the second one is usually absent
   double volume_percent = 100;
   bool muted = false;
   std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"

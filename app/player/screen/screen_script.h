@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen's display as a script that libass draws, and where its bar is. Pure.
+// The on-screen display as a script for libass, and the position of its bar. Pure.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,22 @@
 
 namespace relievo {
 
-// The script's own units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it.
+// The script's units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it.
 constexpr double kScreenRows = 720;
 
 // For a view that is `aspect` times as wide as it is high.
 [[nodiscard]] std::string screenHead(double aspect);
-// Lines as AssText takes them. Of the list of films, what lies under its posters.
+// Lines for AssText. For the list of films: what lies under its posters.
 [[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height = 720);
-// What lies over the posters of the list of films; nothing without a list.
+// What lies over the posters of the list of films; empty without a list.
 [[nodiscard]] std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect);
-// How far down the view is free for subtitles, as a share of it: the bar begins there.
+// How far down the view is free for subtitles, as a share of its height: to where the bar begins.
 [[nodiscard]] double roomForWords(const ScreenContent& content, double aspect);
 
-// Where in the bar a point of the view lies, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the view.
+// The position in the bar of a point of the view, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the
+// view.
 [[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;
-// The same however far above or below the bar.
+// The same at any distance above or below the bar.
 [[nodiscard]] double barShareAlong(double across, double aspect) noexcept;
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player shows over the picture, and for how long: pure.
+// The text that the player shows over the picture, and for how long. Pure.
 #pragma once
 
 #include <array>
@@ -24,12 +24,12 @@ struct ScreenBar {
   bool has_length = false;
   std::vector<double> chapters;
   std::optional<double> loop_from, loop_to;
-  std::optional<double> pointed;  // by the mouse
-  std::string pointed_time;       // there
+  std::optional<double> pointed;  // under the mouse
+  std::string pointed_time;       // the time there
   bool operator==(const ScreenBar&) const = default;
 };
 
-// What a key has changed: words, and where there is one a level between 0 and 1.
+// The value that a key has changed: words, and a level between 0 and 1 if there is one.
 struct ScreenNotice {
   std::string words;
   std::optional<double> level;
@@ -52,8 +52,8 @@ struct ScreenContent {
   std::optional<ScreenNotice> notice;
   std::string warning, hint;
   ScreenRows statistics, keys;
-  std::size_t keys_page = 0;       // from 0 on, of what finds no room on one
-  std::string help_key;            // shows the keys; beside keys and list alone
+  std::size_t keys_page = 0;       // from 0 on, if the keys do not fit on one page
+  std::string help_key;            // the key that shows all keys; only with keys and list
   std::optional<ScreenList> list;  // of films, in place of a film
 
   [[nodiscard]] bool empty() const { return *this == ScreenContent{}; }
@@ -63,9 +63,9 @@ struct ScreenContent {
 // "1:02:05", "0:07".
 [[nodiscard]] std::string clockTime(double seconds);
 
-// The bar is shown for some seconds after the viewer has done something, when something goes wrong, and at the start;
-// as long as the film stands; and on wish until it is wished away. A notice stands for two seconds, and so does the
-// hint at the start.
+// The bar is shown for some seconds after the viewer has done something, after a fault, and at the start; while the
+// film is paused; and on request, until it is switched off. A notice is shown for two seconds, and so is the hint at
+// the start.
 class ScreenText {
  public:
   static constexpr Duration kAwake = std::chrono::seconds(4);
@@ -74,29 +74,29 @@ class ScreenText {
   void wake(MonotonicTime now) noexcept { awake_until_ = now + kAwake; }
   void toggleBar() noexcept { bar_ = !bar_; }
   void toggleStatistics() noexcept { statistics_ = !statistics_; }
-  // Shows these keys, then their further pages, then no longer.
+  // Shows these keys, then their further pages, then hides them.
   void turnKeys(ScreenRows keys, std::size_t pages);
   void hideKeys() noexcept { keys_.clear(); }
   void setHelpKey(std::string label) { help_key_ = std::move(label); }
   [[nodiscard]] bool showsKeys() const noexcept { return !keys_.empty(); }
   [[nodiscard]] bool showsWarning(MonotonicTime now) const noexcept { return now < told_until_; }
-  // Why something is off.
+  // Shows why something does not work.
   void tell(std::string why, MonotonicTime now);
   void forgetWarning() noexcept { told_until_ = {}; }
-  // What a key has done.
+  // Shows the effect of a key.
   void notice(ScreenNotice notice, MonotonicTime now);
   void hint(std::string words, MonotonicTime now);
-  // The list of films, and beside it warnings, notices and keys alone; nullopt: a film.
+  // The list of films, shown only with warnings, notices and keys; nullopt: a film is shown.
   void setList(std::optional<ScreenList> list) { list_ = std::move(list); }
   [[nodiscard]] bool hasList() const noexcept { return list_.has_value(); }
-  // The mouse is over this place of the bar, 0 to 1, or over none.
+  // The mouse is over this place of the bar, 0 to 1; nullopt: it is not over the bar.
   void point(std::optional<double> share, MonotonicTime now);
   void setChapters(std::vector<double> starts_s) { chapters_s_ = std::move(starts_s); }
 
   [[nodiscard]] bool showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept;
   [[nodiscard]] bool showsStatistics() const noexcept { return statistics_; }
-  // Rounded, so that it changes only when something visible does. `statistics` is shown if it was wished for; nothing
-  // but a notice is shown beside the keys.
+  // Values are rounded, so that the content changes only when something visible does. `statistics` is included if
+  // requested; only a notice is shown together with the keys.
   [[nodiscard]] ScreenContent content(const ScreenFacts& facts, const ScreenRows& statistics, MonotonicTime now) const;
 
  private:

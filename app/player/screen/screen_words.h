@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The screen's display as pictures.
+// Renders the on-screen display to pictures.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// For one thread. Without a font it stays empty and logs that once.
+// Use from one thread. Without a font there are no pictures, which is logged once.
 class ScreenWords {
  public:
   // True if the pictures differ from the last ones.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Collects the boxes and words of the screen's display as lines for AssText.
+// Collects the boxes and words of the on-screen display as lines for AssText.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ class Script {
               static_cast<unsigned>(std::lround(255 * (1 - opacity)))) +
         path + "{\\p0}");
   }
-  // `corner`: as on a keypad, 7 is the top left one of the text.
+  // `corner`: the text's corner at (x, y), as on a keypad; 7 is its top left.
   void text(const std::string& words, int corner, double x, double y, double size, const char* color = kWhite) {
     if (words.empty()) return;
     add(print("{\\an%d\\pos(%.1f,%.1f)\\fs%.1f\\1c&H%s&}", corner, x, y, size, color) + AssText::escaped(words));
@@ -59,7 +59,7 @@ class Script {
 
 inline constexpr double kLetterOfSize = 0.52;  // the mean width of a letter
 
-// How many letters of a font size find room in a width, about.
+// About how many letters of a font size fit into a width.
 inline int cellsIn(double width, double size) noexcept {
   return std::max(8, static_cast<int>(width / (kLetterOfSize * size)));
 }

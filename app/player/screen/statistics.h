@@ -13,7 +13,7 @@ namespace relievo {
 // Figures change once a second.
 class Statistics {
  public:
-  // Whether the rows should be made anew.
+  // True if the rows should be updated.
   [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return now >= next_; }
   [[nodiscard]] ScreenRows rows(const PlayReport& report, const FingerForces& forces_n, MonotonicTime now);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subtitles of a moment as pictures.
+// Renders the subtitles of a moment to pictures.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,23 @@
 
 namespace relievo {
 
-// What the player's own display leaves of the view.
+// The part of the view that the on-screen display leaves free.
 struct SubtitleRoom {
   bool none = false;  // a page covers all of it
-  double down = 1;    // free so far down, as a share of its height: what stands lower is lifted
+  double down = 1;    // free down to here, as a share of its height: subtitles below are moved up
 };
 
-// For one thread. Lines that come again after a seek are shown once. Without a font text stays away, and the log says
-// so once.
+// Use from one thread. Lines that are read again after a seek are shown once. Without a font no text is shown, which is
+// logged once.
 class SubtitleWords {
  public:
   void add(Subtitle subtitle);
-  // Another track or film.
+  // Call for another track or film.
   void forget();
   void show(bool shown) noexcept { shown_ = shown; }
-  // There are subtitles of the film, and they are to be seen.
+  // True if the film has subtitles and they are switched on.
   [[nodiscard]] bool mayShow() const noexcept { return shown_ && (!seen_.empty() || !with_pictures_.empty()); }
-  // Larger than the film has them, or smaller: 0.5 to 3.
+  // Scales the film's letters: 0.5 to 3.
   void changeSize(double by) noexcept;
   [[nodiscard]] double size() const noexcept { return size_; }
   // True if the pictures differ from the last ones.
@@ -54,9 +54,9 @@ class SubtitleWords {
   std::shared_ptr<const std::string> styles_;             // of the script in `text_`
   std::set<std::pair<std::int64_t, std::string>> seen_;   // begin, line
   std::deque<Subtitle> with_pictures_;                    // ascending
-  std::optional<std::pair<MediaTime, TextFrame>> drawn_;  // the one with pictures that is shown
+  std::optional<std::pair<MediaTime, TextFrame>> drawn_;  // of the shown subtitle with pictures
   std::vector<TextPicture> pictures_;
-  int lifted_ = 0;  // by so many pixels, those in the lower half
+  int lifted_ = 0;  // by so many pixels those in the lower half are moved up
 };
 
 }  // namespace relievo
