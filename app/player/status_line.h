@@ -15,7 +15,7 @@ namespace relievo {
 [[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
                                      std::size_t columns);
 
-// On standard error, if that is a terminal. The player's thread only.
+// Prints on standard error, if that is a terminal. Player's thread only.
 class StatusLine {
  public:
   static constexpr Duration kPeriod = std::chrono::milliseconds(500);
@@ -25,7 +25,7 @@ class StatusLine {
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  // False on what is no terminal, and too soon after the last one.
+  // False without a terminal, and too soon after the last line.
   [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return on_terminal_ && now >= due_; }
   void show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n, MonotonicTime now);
   void clear() noexcept;

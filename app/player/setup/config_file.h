@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The configuration file (TOML): what a machine's hardware needs and no command line should have to say every time.
+// The configuration file (TOML): settings of a machine's hardware that no command line should have to repeat.
 #pragma once
 
 #include <optional>
@@ -33,27 +33,28 @@ struct FileConfig {
 // $XDG_CONFIG_HOME/relievo/relievo.toml, or the same under ~/.config, if it is there; else /etc/relievo/relievo.toml.
 [[nodiscard]] std::string defaultConfigPath();
 
-// `path` empty: the default one, and no file is no failure. NotFound; InvalidArgument, which names the line, for what
-// is no TOML, for an unknown table, and for an unknown key or a value that cannot be outside [play]: what is in there
-// the options judge (config_options.h).
+// If `path` is empty, reads the default file; it is no failure if that is missing. NotFound; InvalidArgument, which
+// names the line, for invalid TOML, an unknown table, and, outside [play], an unknown key or a value that is out of
+// range. The contents of [play] are checked by the options (config_options.h).
 [[nodiscard]] Outcome<FileConfig> loadConfig(const std::string& path);
-// The same of a text; `path` is for messages.
+// The same for a text; `path` is only for messages.
 [[nodiscard]] Outcome<FileConfig> parseConfig(const std::string& text, const std::string& path);
 
-// Takes the levels of [log] into use.
+// Applies the levels of [log].
 void applyLogLevels(const FileConfig& config);
 
 // "relievo.toml:12: key", for a message about an entry.
 [[nodiscard]] std::string placeOf(const FileConfig& config, const ConfigEntry& entry);
-// A value that reads back as these words: a number where that keeps them, else text in quotes; a list of several.
+// A TOML value that reads back as these words: a number if that preserves them, else text in quotes; several become a
+// list.
 [[nodiscard]] std::string tomlOf(const std::vector<std::string>& words);
 
-// The file's text with one number set, everything else as it was, comments too. `text` is TOML that `loadConfig`
-// has read.
+// The file's text with one number set and everything else unchanged, comments included. `text` is TOML that
+// `loadConfig` has read.
 [[nodiscard]] std::string withNumber(const std::string& text, const std::string& table, const std::string& key,
                                      double value);
 
-// The same in the file itself, which is made with its folder where there is none.
+// The same in the file itself; creates the file and its folder if they are missing.
 [[nodiscard]] Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key,
                                       double value);
 

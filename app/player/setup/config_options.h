@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of a command, out of the configuration's [play] and back into one: the options are declared once, for
-// CLI11, and a configuration can say whatever they can.
+// Fills a command's options from the configuration's [play], and writes them back as configuration: options are
+// declared once, for CLI11, and the configuration can set all of them.
 #pragma once
 
 #include <map>
@@ -18,13 +18,13 @@ namespace relievo {
 // The lines that options have come from, by their keys.
 using ConfigLines = std::map<std::string, int>;
 
-// After the command line was parsed: gives each option that it has not given the words that [play] has for it. A key is
-// an option's long name, or an argument's in small letters. The failure names the file's line: InvalidArgument for a
-// key that is no option and for a value that the option refuses; else the option's own.
+// Call after the command line was parsed: sets each option that it has not given to its words in [play]. A key is an
+// option's long name, or an argument's in small letters. The failure names the file's line: InvalidArgument for a key
+// that is no option and for a value that the option refuses; else the option's own.
 [[nodiscard]] Outcome<ConfigLines> applyConfig(CLI::App& command, const FileConfig& config);
 
 // TOML that `loadConfig` and `applyConfig` read back: every option of the command and every other entry of the
-// configuration, each with a comment that says where it is from. What is not set is a comment.
+// configuration, each with a comment that states its origin. Options that are not set are commented out.
 [[nodiscard]] std::string configText(const CLI::App& command, const FileConfig& config, const ConfigLines& lines);
 
 }  // namespace relievo

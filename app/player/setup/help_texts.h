@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the help of `relievo` and of its commands begins and ends with.
+// The beginnings and ends of the help of `relievo` and of its commands.
 #pragma once
 
 namespace relievo {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a misspelt file was meant to be.
+// Finds the file that a misspelt name probably means.
 #pragma once
 
 #include <string>
 
 namespace relievo {
 
-// The file or folder beside `path` that has nearly its name, or its name with another extension; empty if there is
+// The file or folder beside `path` with a similar name, or the same name with another extension; empty if there is
 // none. May wait for the disk.
 [[nodiscard]] std::string nearFile(const std::string& path);
 

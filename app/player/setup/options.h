@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of `relievo`: what it takes, what it teaches, and what it refuses.
+// The command line of `relievo`.
 #pragma once
 
 #include <expected>
@@ -16,23 +16,23 @@ namespace relievo {
 
 struct PlayOptions {
   PlayerConfig player;
-  BackEndName display;  // not named: what the machine has; see Machine
+  BackEndName display;  // not named: the machine's (see Machine)
   BackEndName haptic;
   BackEndName second_haptic;  // of a second finger; not named: none
   BackEndName remote;
   BackEndName audio;
   BackEndName decoder;
   std::optional<StereoSignal> tv_signal;  // asked for; not given: that of the picture's layout
-  std::optional<double> rate_hz;          // of the haptic task; none: the device's own
-  bool software = false;                  // no hardware decodes the film
+  std::optional<double> rate_hz;          // of the haptic task; nullopt: the device's own
+  bool software = false;                  // true: decode without hardware
   std::string report_path;                // empty: none
   std::string record_path;
   std::string keys_path;  // empty: the usual keys
   bool resume = false;
-  std::vector<std::string> films;  // folders of the list of films
-  bool osd = false;                // also off screen
+  std::vector<std::string> films;  // folders for the list of films
+  bool osd = false;                // show it also off screen
   bool print_keys = false, print_states = false;
-  bool verbose = false;      // a developer's lines and figures, too
+  bool verbose = false;      // print a developer's lines and figures
   std::string control_path;  // empty: no control socket
 };
 
@@ -47,7 +47,7 @@ struct Options {
   PlayOptions play;
   ProbeOptions probe;
   bool calibrate = false;  // of Devices
-  FileConfig config;       // of play and devices: read, and what it says of play is in `play`
+  FileConfig config;       // of play and devices: as read; its [play] is applied to `play`
 };
 
 // The names of the back ends, for the help.
@@ -59,8 +59,8 @@ struct DeviceNames {
   const char* decoder = "";
 };
 
-// What there is to play on, for what the options do not name. Each is asked only where its answer is needed; an empty
-// one is a no.
+// The devices of the machine, for options that are not given. Each is asked only if its answer is needed; an empty
+// function means no.
 struct Machine {
   std::function<bool()> desktop;        // a window can be opened
   std::function<bool()> screen;         // kms can show a picture
@@ -68,12 +68,12 @@ struct Machine {
   std::function<bool()> terminal;       // the keys of standard input's terminal can be read
 };
 
-// A first word that is no command is a film: "relievo FILM.." is "relievo play FILM..".
+// If the first word is no command, it is a film: "relievo FILM.." is "relievo play FILM..".
 //
-// Options are the command line's, then the configuration's, then the machine's: a window on a desktop, else the screen,
-// else off screen; without a film, the list of films there; in a window, and on a screen, the force-feedback device
-// that is plugged in, else the mouse. On wrong use, and when help or the configuration was asked for, it prints what
-// there is to say and returns the exit code.
+// Options are taken from the command line, else from the configuration, else from the machine: a window on a desktop,
+// else the screen, else off screen; without a film, the list of films there; in a window and on a screen, the
+// plugged-in force-feedback device, else the mouse. After a usage error, and if help or the configuration was
+// requested, everything has been printed and the exit code is returned.
 [[nodiscard]] std::expected<Options, int> parseOptions(int argc, const char* const* argv, const DeviceNames& names,
                                                        const Machine& machine = {});
 

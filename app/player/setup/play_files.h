@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of `play` besides the film: its keys, what it remembers from run to run, its report and its recordings.
+// The files of `play` besides the film: keys, settings kept between runs, report and recordings.
 #pragma once
 
 #include <memory>
@@ -15,13 +15,13 @@
 
 namespace relievo {
 
-// Loads the keys and finds the places to remember the volume and positions in.
+// Loads the keys and finds the files for the volume and the positions.
 [[nodiscard]] Outcome<void> loadPlayFiles(PlayOptions& options);
 
 // "hand-2.csv" beside "hand.csv"; empty without a second finger or a recording.
 [[nodiscard]] std::string secondRecordPath(const PlayOptions& options);
 
-// What is written besides the picture and the sound. Empty: it was not asked for.
+// The outputs besides picture and sound. Empty: not requested.
 struct PlayOutputs {
   std::optional<AtomicFile> report;
   std::optional<Recorder> recorder, second_recorder;
@@ -29,8 +29,8 @@ struct PlayOutputs {
 };
 [[nodiscard]] Outcome<PlayOutputs> makeOutputs(const PlayOptions& options);
 
-// Writes the report and the recordings, and says what could not be written; one that fails costs the others nothing.
-// Returns the exit code.
+// Writes the report and the recordings, and reports failures; one failure does not affect the other files. Returns the
+// exit code.
 [[nodiscard]] int finishFiles(const PlayReport& report, PlayOutputs& outputs);
 
 }  // namespace relievo

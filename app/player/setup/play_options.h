@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the options of `relievo play` for CLI11, and turns their words into values.
+// Declares the options of `relievo play` for CLI11, and converts their words to values.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// What is given must outlive the parsing. A wrong word throws, as CLI11 does.
+// The arguments must outlive the parsing. A wrong word throws, as in CLI11.
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names);
-// --depth, and how a source and its depth are read: of every command that takes a source.
+// Adds --depth, and the options for reading a source and its depth, for every command that takes a source.
 void addDepthSource(CLI::App& command, SourceOptions& source);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells whether what is installed works as a whole, without any hardware: for who has just installed it.
+// Checks that an installation works as a whole, without any hardware.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ namespace relievo {
 struct SelfTestParts {
   Clock& clock;
   Display& display;      // off screen
-  HapticDevice& haptic;  // in a hand that strokes what it meets
+  HapticDevice& haptic;  // held by a hand that strokes the surface
   PairReader::Backends backends;
-  std::string film;  // of some seconds, with something to touch in it
+  std::string film;  // a few seconds long, with a surface to touch
 };
 
 struct SelfTestLine {
   enum class Verdict : std::uint8_t { Good, Note, Bad };  // Note: works without it, but less well
   Verdict verdict = Verdict::Good;
-  std::string thing, said;  // what it is; why not, and what to do
+  std::string thing, said;  // what was tested; why it failed, and what to do
 };
 
 // Finds the font, opens the decoders, plays and feels the film once: takes as long as that. The calling thread becomes

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What systemd is told when it has started the player as a service, in the datagrams of sd_notify(3); nothing when it
-// has not. Not by libsystemd: its call waits for a manager that does not read, and a film must not.
+// Sends systemd the state of the player's service as datagrams of sd_notify(3); sends nothing if systemd has not
+// started it. Does not use libsystemd, whose call waits for a manager that does not read.
 #pragma once
 
 #include <sys/socket.h>
@@ -14,15 +14,15 @@
 
 namespace relievo {
 
-// One thread. Nothing waits: a message that finds no room is lost, but for the watchdog's, which goes out later.
+// Use from one thread. No call waits: a message that does not fit is lost, except the watchdog's, which is sent later.
 class ServiceManager {
  public:
-  // Takes $NOTIFY_SOCKET and $WATCHDOG_USEC.
+  // Reads $NOTIFY_SOCKET and $WATCHDOG_USEC.
   ServiceManager() noexcept;
 
-  // The devices are open, or are known to be missing. Once.
+  // Call once, when the devices are open or known to be missing.
   void ready() noexcept { send("READY=1"); }
-  // The player's loop has gone round once more. The watchdog hears of it at half its interval, and of nothing else.
+  // Call once a round of the player's loop. Notifies the watchdog at half its interval; nothing else does.
   void wentRound(MonotonicTime now) noexcept;
   // A few words for `systemctl status`.
   void status(const std::string& text) noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How loud the sound is: a soft factor, remembered for each sound output.
+// The volume of the sound, remembered for each sound output.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ class Loudness {
  public:
   static constexpr double kMostPercent = 130;
 
-  // `path`: a file of the last run, JSON: {"DEVICE": percent, ..}; empty: nothing is remembered.
+  // `path`: a file kept from the last run, JSON: {"DEVICE": percent, ..}; empty: nothing is remembered.
   Loudness(std::string path, std::string device);
 
   void set(double percent) noexcept;
   void mute(bool muted) noexcept { muted_ = muted; }
   [[nodiscard]] double percent() const noexcept { return percent_; }
   [[nodiscard]] bool muted() const noexcept { return muted_; }
-  // The factor on the samples: the cube of the share, which sounds even.
+  // The factor on the samples: the cube of the volume's share, which sounds linear.
   [[nodiscard]] double gain() const noexcept;
-  // Has the file written if the volume has changed. What cannot be written is told in the log.
+  // Queues the file for writing if the volume has changed. A failure to write is logged.
   void keep(FileWriter& files);
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The factor on the sound's samples. It changes over a hundredth of a second, so that no click is heard.
+// The gain of the sound. It changes over a hundredth of a second, to avoid a click.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@ namespace relievo {
 class SoundGain {
  public:
   void set(double gain) noexcept { wished_ = gain; }
-  // The samples that are amplified next begin with it.
+  // The next samples begin with this gain.
   void setAtOnce(double gain) noexcept { now_ = wished_ = gain; }
-  // Multiplies whole frames, limited to the full scale, and continues from the last call. The result is the gain that
-  // they began with, for `endAfter`.
+  // Multiplies whole frames, limited to full scale, and continues from the last call. Returns the gain at their
+  // beginning, for `endAfter`.
   double amplify(std::span<float> samples, const AudioFormat& format) noexcept;
   // Only the first `frames` of the last call were used: the next call continues from there.
   void endAfter(std::size_t frames, double began_with, const AudioFormat& format) noexcept;

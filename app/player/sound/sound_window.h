@@ -13,18 +13,18 @@
 
 namespace relievo {
 
-// Frames are counted from media time 0. Times of chunks that do not quite follow one another are taken for rounded, and
-// are joined without a seam; a real gap is a silence, what overlaps is left out.
+// Frames are counted from media time 0. If the times of successive chunks nearly match, the difference is taken as
+// rounding and the chunks are joined; a real gap is a silence, and overlaps are dropped.
 class SoundWindow {
  public:
   explicit SoundWindow(const AudioFormat& format) : format_(format) {}
 
   void add(const AudioChunk& chunk);
-  // Forgets what ends before.
+  // Drops pieces that end before `frame`.
   void dropBefore(std::int64_t frame);
   void clear() { pieces_.clear(); }
-  // Copies frames from `first` on into `out`, with silence in the gaps and before the beginning, and returns how many
-  // there are: none from `end` on.
+  // Copies frames from `first` on into `out`, with silence in the gaps and before the beginning. Returns the number of
+  // frames, which is 0 from `end` on.
   [[nodiscard]] std::size_t read(std::int64_t first, std::span<float> out) const;
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.empty(); }
