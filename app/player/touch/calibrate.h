@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds out how strong a haptic device really is, with a spring scale.
+// Measures a haptic device's real force with a spring scale.
 #pragma once
 
 #include <functional>
@@ -12,17 +12,17 @@
 
 namespace relievo {
 
-// Pushes the handle toward the user with 2, 3 and 4 N in turn (as far as the device has them), each for as long as
-// `readScale` takes to tell what a spring scale shows, N; nothing: the user has given up. Answers shown / asked force,
-// the mean over the readings: a device that is set to c counts per newton-metre has c divided by that in truth.
-// The device is open; it is homed here and closed in the end, whatever happens. InvalidArgument for readings that are
-// no force or do not agree within 20 %; Cancelled. Owner's thread; `own_thread` false: the ticks run before
+// Pushes the handle toward the user with 2, 3 and 4 N in turn (as far as the device can), each until `readScale`
+// returns the reading of a spring scale, N; nullopt: the user has given up. Returns measured / requested force, the
+// mean over the readings: a device configured with c counts per newton-metre really has c divided by that.
+// The device must be open; it is homed here and always closed at the end. InvalidArgument for readings that are not a
+// force or do not agree within 20 %; Cancelled. Owner's thread; with `own_thread` false the ticks run before
 // `readScale`, for simulated time.
 using ReadScale = std::function<std::optional<double>(double asked_n)>;
 [[nodiscard]] Result<double> measureStrength(HapticDevice& device, const ReadScale& readScale, Clock& clock,
                                              bool own_thread = true);
 
-// What somebody has typed: a number, with a point or a comma, and "N" behind it or not.
+// Parses what the user has typed: a number, with a point or a comma, with or without "N" behind it.
 [[nodiscard]] std::optional<double> newtonsIn(std::string line);
 
 }  // namespace relievo

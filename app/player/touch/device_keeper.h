@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings a haptic device up beside the film: opens and homes it, again and again until it is there.
+// Opens and homes a haptic device while the film plays, and retries until it is available.
 #pragma once
 
 #include <condition_variable>
@@ -14,11 +14,11 @@
 namespace relievo {
 
 // Owner's thread. With a thread of its own `poll` never waits; without one the device is opened and homed inside it,
-// for simulated time. From `begin` until `poll` says Ready, or `stop`, the device is this object's alone.
+// for simulated time. From `begin` until `poll` returns Ready, or `stop`, only this object may use the device.
 class DeviceKeeper {
  public:
   static constexpr Duration kBetweenTries = std::chrono::seconds(1);
-  static constexpr Duration kPatience = std::chrono::milliseconds(500);  // until homing is worth a word
+  static constexpr Duration kPatience = std::chrono::milliseconds(500);  // homing that takes longer is reported
 
   DeviceKeeper(HapticDevice& device, Clock& clock, bool own_thread) noexcept
       : device_(device), clock_(clock), own_thread_(own_thread) {}
@@ -26,21 +26,21 @@ class DeviceKeeper {
   DeviceKeeper(const DeviceKeeper&) = delete;
   DeviceKeeper& operator=(const DeviceKeeper&) = delete;
 
-  // The device is closed then. Does nothing while it is at it.
+  // The device must be closed. Does nothing while an attempt is running.
   void begin();
 
   struct News {
     enum class Kind : std::uint8_t {
-      Refused,  // not to be had, and why; told once for each reason
-      Homing,   // it waits for the user to move its handle
-      Ready,    // it is homed; told once
+      Refused,  // not available, and why; returned once for each reason
+      Homing,   // waits for the user to move the handle
+      Ready,    // homed; returned once
     };
     Kind kind = Kind::Refused;
     Error error;
   };
   [[nodiscard]] std::optional<News> poll();
 
-  // Calls off what is under way. The device is closed unless it was Ready.
+  // Cancels the attempt. The device is closed unless it was Ready.
   void stop() noexcept;
 
  private:
@@ -56,13 +56,13 @@ class DeviceKeeper {
   std::jthread thread_;
   MonotonicTime next_try_;  // without a thread
 
-  std::mutex lock_;  // of all that follows
+  std::mutex lock_;  // guards everything below
   std::condition_variable_any wake_;
   Phase phase_ = Phase::Idle;
   MonotonicTime entered_;
   bool homing_told_ = false;
-  std::optional<Error> refusal_;        // not yet told
-  const char* told_refusal_ = nullptr;  // the last one told
+  std::optional<Error> refusal_;        // not yet returned
+  const char* told_refusal_ = nullptr;  // the last one returned
 };
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The touch of a film: feeds its surface to one finger or two, each with a device, and follows them.
+// Touch for a film: feeds its surface to one finger or two, each with a device, and follows the devices.
 #pragma once
 
 #include <deque>
@@ -27,31 +27,31 @@ namespace relievo {
 // else: each has its own task, thread and limits, and feels what it would feel alone.
 class FilmTouch {
  public:
-  // The parts are borrowed. Without a first device there is nothing to feel with; without a second one, one finger.
+  // The parts are borrowed. Without a first device there is no touch; without a second one, there is one finger.
   FilmTouch(const FingerParts& first, const FingerParts& second, Clock& clock, Ticking ticking, Journal& journal);
 
   // Starts opening and homing the devices.
   void begin();
   // Zero force first, in all fingers; then stops the threads and the devices.
   void stop() noexcept;
-  // Zero force between two films; the devices stay homed.
+  // Sets the force to zero between two films; the devices stay homed.
   void rest() noexcept;
 
-  // How to read this film's depth, the display volume that it fills, and what its surface feels like.
-  // `material_scale`: of the film's material track; empty: it has none.
+  // Sets how to read this film's depth, the display volume that it fills, and its material. `material_scale`: of the
+  // film's material track; empty: it has none.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, const Material& material,
                 const Material& material_scale = {}) noexcept;
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   // How long a live film's surface waits for frames. Before `start`.
   void setLookAhead(const LookAhead& ahead) noexcept;
-  // The next depth does not continue the last one: after an opening or a seek.
+  // Call when the next depth does not continue the last one: after an opening or a seek.
   void beginEpoch() noexcept;
   // Publishes the surface to the haptic tasks.
   void feed(const DepthAround& depth, const ClockSample& clock);
-  // The newest depth of a live film, which need not wait until the player has drawn. Any thread.
+  // Takes the newest depth of a live film without waiting until the player has drawn. Any thread.
   void hear(const Frame& depth, const Frame& material);
 
-  // Notes losses and recoveries of devices. True if one is ready and waits for `start`.
+  // Notes losses and recoveries of devices. True if a device is ready and waits for `start`.
   [[nodiscard]] bool followDevice();
   [[nodiscard]] bool waiting() const noexcept;
   [[nodiscard]] bool running() const noexcept;
@@ -63,7 +63,7 @@ class FilmTouch {
   // Sleeps; without haptic threads, the ticks run meanwhile.
   void sleepUntil(MonotonicTime deadline) noexcept;
 
-  // Where each finger is; nullopt without its device.
+  // The position of each finger; nullopt without its device.
   [[nodiscard]] FingerMarks marks() noexcept;
   // One or two.
   [[nodiscard]] const std::deque<Finger>& fingers() const noexcept { return fingers_; }

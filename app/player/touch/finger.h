@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One finger on the film: a device, its haptic session and its recording, and what the journal is told of them.
+// One finger on the film: its device, haptic session, recording, and entries in the journal.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct FingerParts {
 // The player's thread only. No call blocks on the device.
 class Finger {
  public:
-  // `who` begins what the journal is told, as "second finger: "; empty where there is one finger.
+  // `who`: prefix of its entries in the journal, such as "second finger: "; empty if there is one finger.
   Finger(const FingerParts& parts, std::string who, Clock& clock, Ticking ticking, Journal& journal)
       : session_(parts.device, clock, ticking), recorder_(parts.recorder), who_(std::move(who)), journal_(journal) {}
 
@@ -38,7 +38,7 @@ class Finger {
   // Records the ticks since the last call and notes faults; see FilmTouch::drain.
   void drain(const SurfaceFeeder& surface, SeekTimes& seeks, LiveTimes* live);
 
-  // Where it is; nullopt without a device.
+  // Its position; nullopt without a device.
   [[nodiscard]] std::optional<FingerMark> mark() noexcept;
   // The name of the running device; empty if there is none.
   [[nodiscard]] std::string device() const { return session_.running() ? session_.capabilities().name : ""; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owns the haptic side of a film: the device's life, fixed memory, the real-time thread, and the way in and out of it.
+// Owns the haptic side of a film: the device's state, fixed memory, and the real-time thread.
 #pragma once
 
 #include <atomic>
@@ -22,13 +22,13 @@
 
 namespace relievo {
 
-// Who runs the ticks: a thread of its own, or `tickByHand`, for simulated time.
+// What runs the ticks: a thread of its own, or `tickByHand`, for simulated time.
 enum class Ticking : std::uint8_t { Thread, ByHand };
 
-// What the haptic side did, for the report. All zero when it never ran.
+// The haptic side's results for the report. All zero if it never ran.
 struct HapticSummary {
   std::string device;     // "" without one
-  std::string plan;       // which parts of the method this film got, and why
+  std::string plan;       // the parts of the method chosen for this film, and why
   std::string scheduler;  // "SCHED_FIFO", "SCHED_OTHER", "simulated time", "none"
   bool memory_locked = false;
   double rate_hz = 0;
@@ -37,14 +37,15 @@ struct HapticSummary {
   struct Times {
     std::int64_t p50 = 0, p99 = 0, p999 = 0, max = 0;  // ns
   } update, wakeup;
-  std::optional<Times> contact_told;  // from a contact's first force until the device has taken it; see HapticDevice
+  std::optional<Times>
+      contact_told;  // from a contact's first force until the device has taken it (HapticDevice::contactDelays)
   struct Bucket {
     std::int64_t ns = 0;
     std::uint64_t ticks = 0;
   };
   std::vector<Bucket> wakeup_histogram;  // within 6 %, the shortest first
-  // What is held in memory for the ticks: the task with its rings, the method, the thread's stack, its counters. Code
-  // and the film's pictures, which the player has anyway, are not in it.
+  // Memory reserved for the ticks: the task with its rings, the method, the thread's stack, its counters. Without code
+  // and the film's pictures, which the player needs anyway.
   struct Memory {
     std::size_t task = 0, method = 0, stack = 0, counters = 0;
     std::size_t stack_used = 0;  // of the stack, at most, in a run that has ended
@@ -53,10 +54,10 @@ struct HapticSummary {
   double scene_mj = 0, artefact_mj = 0;
 };
 
-// Owner's thread only. A device that is not there, or goes away, is looked for every second beside the film.
+// Owner's thread only. A missing or lost device is looked for every second while the film plays.
 class HapticSession {
  public:
-  // `device` is borrowed and may be null: then every verb does nothing.
+  // `device` is borrowed and may be null: then no call does anything.
   HapticSession(HapticDevice* device, Clock& clock, Ticking ticking) noexcept;
   ~HapticSession();
   HapticSession(const HapticSession&) = delete;
@@ -64,42 +65,42 @@ class HapticSession {
 
   // Begins to open and home the device.
   void begin();
-  // What came of it: why it is refused, that it waits for the user, that it is `waiting` to be started.
+  // The result of that: why the device is refused, that it waits for the user, or that it is `waiting` to be started.
   [[nodiscard]] std::optional<DeviceKeeper::News> poll();
-  // Opened and homed, and not started.
+  // True if it is opened and homed, and not started.
   [[nodiscard]] bool waiting() const noexcept { return opened_ && !running_; }
-  // Makes the task for this volume, material and look-ahead in locked memory, or takes the one that a lost device or
-  // the last film has left; gives it the first window and starts it. The force begins at zero. Waiting, else
-  // InvalidState. After a failure the device is looked for anew.
+  // Creates the task for this volume, material and look-ahead in locked memory, or reuses the one left by a lost device
+  // or the last film; gives it the first window and starts it. The force begins at zero. InvalidState unless `waiting`.
+  // After a failure the device is looked for anew.
   // `material_scale`: of the film's material track, empty if it has none.
   [[nodiscard]] Result<void> start(const DisplayVolume& volume, const Material& material,
                                    const Material& material_scale, const LookAhead& ahead, const SurfaceFeeder& first);
-  // Between two films: zero force, and no ticks; the device stays homed. The next `start` is on another scene.
+  // Between two films: zero force, and no ticks; the device stays homed. The next `start` may be for another scene.
   void rest() noexcept;
-  // Zero force first; then the thread, the device. Any time.
+  // Sets the force to zero, then stops the thread and the device. May be called at any time.
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return running_; }
   // The capabilities of the device that was ready last.
   [[nodiscard]] const HapticCapabilities& capabilities() const noexcept { return capabilities_; }
-  // What it had to start without: memory that stays, a scheduler that is in time. Null where nothing is missing.
+  // Limitations that it started with: memory that is not locked, an ordinary scheduler. Null if there are none.
   [[nodiscard]] const char* missingMemory() const noexcept { return missing_memory_; }
   [[nodiscard]] const char* missingScheduler() const noexcept { return missing_scheduler_; }
-  // What the device cannot hold of the film's material, in words; empty where it holds all.
+  // The parts of the film's material that exceed the device, in words; empty if it can render all.
   [[nodiscard]] const std::string& reducedMaterial() const noexcept { return reduced_material_; }
 
   void publish(const SurfaceFeeder& surface) noexcept;
-  // Nothing until the first tick, and without a device.
+  // Null until the first tick, and without a device.
   [[nodiscard]] const FingerState* finger() noexcept;
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept;
   // After DeviceLost the device has been closed and is looked for.
   [[nodiscard]] std::optional<HapticFault> nextFault();
-  // What the real-time side has had to say since.
+  // Prints the real-time side's messages since the last call.
   void printLog() noexcept;
 
-  // ByHand: when the next tick is due; never where none is.
+  // ByHand: when the next tick is due; MonotonicTime::max() if none is.
   [[nodiscard]] MonotonicTime nextTickByHand() const noexcept;
-  // Sleeps until then and runs it.
+  // Sleeps until the next tick and runs it.
   void tickByHand() noexcept;
 
   [[nodiscard]] HapticSummary summary() const;
@@ -131,8 +132,8 @@ class HapticSession {
   CyclicThread thread_;
   struct {
     std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
-  } before_;                 // of the threads before the present one, each ended by a lost device
-  MonotonicTime next_tick_;  // ByHand
+  } before_;                 // of earlier threads, each ended by a lost device
+  MonotonicTime next_tick_;  // for ByHand
   std::uint64_t tick_index_ = 0;
 };
 

@@ -19,7 +19,7 @@ namespace relievo {
 class Recorder {
  public:
   [[nodiscard]] static Result<Recorder> create(const std::string& path);
-  // Whose ticks follow.
+  // The device whose ticks follow.
   void setDevice(const HapticCapabilities& device) noexcept { device_ = device; }
   void add(const FingerState& tick);
   [[nodiscard]] Result<void> finish() { return file_.commit(); }

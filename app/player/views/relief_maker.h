@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the reliefs of a film of two views while it plays, on its own thread.
+// Makes the reliefs of a stereo film while it plays, on a thread of its own.
 #pragma once
 
 #include <condition_variable>
@@ -25,16 +25,15 @@ struct ReliefSummary {
   double mean_ms = 0;                   // the time to make one relief
 };
 
-// The player's side (everything except `work`) never waits for a relief. Pictures are read so far ahead that a relief
-// is there before its picture is shown. Where reliefs take too long, only every second or third picture gets one; a
-// picture that is shown before its relief was begun gets none. Without the thread the caller calls `work`.
+// The player's side (everything except `work`) never waits for a relief. Pictures are read far enough ahead for a
+// relief to be ready before its picture is shown. If reliefs take too long, only every second or third picture gets
+// one; a picture that is shown before its relief was begun gets none. Without the thread the caller calls `work`.
 //
-// The first picture's relief is made at one size after another, and the largest size that keeps within the pace's
-// budget is taken. After a cut the size becomes one smaller if reliefs were slow, one larger if they had much time to
-// spare.
+// The first picture's relief is made at one size after another, and the largest size within the pace's budget is used.
+// At a cut the size becomes one smaller if reliefs were slow, one larger if they left much time.
 class ReliefMaker {
  public:
-  // Pictures to read ahead: as many as touch looks at if every second one has a relief, and two more.
+  // Pictures to read ahead: those that touch needs if every second one has a relief, and two more.
   static constexpr std::size_t kAhead = 12;
 
   // `matcher` null: no reliefs can be made.
@@ -48,27 +47,27 @@ class ReliefMaker {
   void startThread();
   void stop() noexcept;
 
-  // A film with this time between two pictures begins, or ends.
+  // A film with this time between two pictures begins; `end`: it ends.
   void begin(Duration period);
   void end();
-  // Forgets what was offered, since the film continues at another place.
+  // Forgets the offered pictures, since the film continues at another place.
   void jump();
-  // The next picture; one that was offered before, or has no right view, changes nothing.
+  // Offers the next picture. Does nothing if it was offered before or has no right view.
   void offer(const FramePair& pair);
-  // This picture is shown: no relief is made for it and those before it any more.
+  // This picture is shown: no relief is made any more for it and those before it.
   void passed(MediaTime shown);
-  // The next relief that was made, in order, with its picture's time.
+  // The next relief, in order, with its picture's time.
   [[nodiscard]] std::optional<Frame> take();
   // True if there is nothing to make and nothing to take.
   [[nodiscard]] bool idle() const;
-  // A line that says that this machine makes fewer reliefs than the film has pictures; once a film.
+  // A line for the user if this machine makes fewer reliefs than the film has pictures; once a film.
   [[nodiscard]] std::optional<std::string> takeSlowness();
-  // What the matcher says against the views; each once a film.
+  // What the matcher objects to in the views; each once a film.
   [[nodiscard]] std::optional<StereoMatcher::Caution> takeCaution();
-  // Of all films.
+  // Totals over all films.
   [[nodiscard]] ReliefSummary summary() const;
 
-  // Makes one relief; false when there is none to make.
+  // Makes one relief; false if there is none to make.
   bool work();
 
  private:
@@ -88,16 +87,16 @@ class ReliefMaker {
   std::condition_variable wake_;
   std::deque<Job> jobs_;
   std::deque<Frame> made_;
-  std::uint64_t generation_ = 0;  // films and jumps
+  std::uint64_t generation_ = 0;  // counts films and jumps
   bool film_is_new_ = false, begins_shot_ = false;
   bool at_work_ = false;
   Duration period_{0};
   ReliefPace pace_{Duration(0)};
-  std::size_t size_ = 0;              // of the matcher's, that is asked for
-  int since_change_ = 0;              // of it; reliefs
-  std::optional<MediaTime> offered_;  // the last one
-  std::optional<MediaTime> last_;     // whose relief was made last
-  std::optional<MediaTime> shown_;    // the last picture on the screen
+  std::size_t size_ = 0;              // index of the matcher's size in use
+  int since_change_ = 0;              // reliefs made since that changed
+  std::optional<MediaTime> offered_;  // time of the picture offered last
+  std::optional<MediaTime> last_;     // time of the picture whose relief was made last
+  std::optional<MediaTime> shown_;    // time of the picture on the screen
   bool slowness_told_ = false;
   std::vector<const char*> cautions_told_;
   std::optional<StereoMatcher::Caution> caution_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes a depth picture from two views: the quick matcher, or a test's.
+// Interface of what makes a depth picture from two views: the quick matcher, or a test's.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,11 @@ namespace relievo {
 class StereoMatcher {
  public:
   virtual ~StereoMatcher() = default;
-  // The sizes that it can match at, in columns, the cheapest first; they differ in what they cost, not in the depth
-  // picture's size.
+  // The sizes that it can match at, in columns, the cheapest first; they change the cost, not the depth picture's size.
   [[nodiscard]] virtual std::span<const int> sizes() const noexcept = 0;
-  // One of them, from the next shot on.
+  // Sets one of `sizes`, from the next shot on.
   virtual void setSize(int cols) noexcept = 0;
-  // The present one.
+  // The present size.
   [[nodiscard]] virtual int size() const noexcept = 0;
   // The next picture does not continue the last one.
   virtual void beginShot() noexcept = 0;
