@@ -15,24 +15,24 @@
 
 namespace relievo {
 
-// What the shader makes of the four numbers that it samples: rgb = to_rgb x sample + bias.
+// Colour conversion in the shader: rgb = to_rgb x sample + bias, for the four numbers that it samples.
 struct ColorUniforms {
   glm::mat4x3 to_rgb{0};
   glm::vec3 bias{0};
-  glm::vec2 chroma_scale{1};  // where chroma is read, of where luma is
+  glm::vec2 chroma_scale{1};  // chroma coordinates relative to luma's
 };
 
 class ColorConverter {
  public:
-  // Compiles the program for planes that lie so, unless it is the one that there is. `defines` has the SAMPLE of
+  // Compiles the program for planes of this layout, unless it is compiled already. `defines` has the SAMPLE of
   // color_shader.h.
   [[nodiscard]] Result<void> prepare(const std::string& defines);
-  // Needs a prepared program. `as_it_is`: a sample of luma is a pixel. Changes the framebuffer, the viewport and what
-  // is bound to the first texture units.
+  // Needs a prepared program. `as_it_is`: one pixel for each luma sample. Changes the framebuffer, the viewport and the
+  // bindings of the first texture units.
   void convert(const std::array<PlaneTexture, 3>& planes, const ColorUniforms& colors, glm::ivec2 size, bool as_it_is);
-  // The size of what was converted last; 0 before the first.
+  // The size of the converted picture; 0 before the first.
   [[nodiscard]] glm::ivec2 size() const noexcept { return size_; }
-  // Binds what was converted to the active texture unit, row 0 at the top.
+  // Binds the converted picture to the active texture unit, row 0 at the top.
   void bind() const noexcept { glBindTexture(GL_TEXTURE_2D, target_.get()); }
 
  private:

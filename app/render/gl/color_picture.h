@@ -21,9 +21,10 @@
 
 namespace relievo {
 
-// Converted once per frame into a texture that every eye's view samples: sampling three planes for every pixel of both
-// eyes doubled the frame time in software rendering. The GPU converts it, unless there is none, or the picture has at
-// least twice as many samples in a direction as are seen: then SeenColor does, and no more than that is uploaded.
+// Each frame is converted once, into a texture that every eye's view samples: sampling three planes for every pixel of
+// both eyes doubled the frame time in software rendering. The GPU converts it, unless there is none, or the picture has
+// at least twice as many samples in a direction as are visible: then SeenColor reduces it on the CPU, and only the
+// reduced picture is uploaded.
 class ColorPicture {
  public:
   enum class Converter : std::uint8_t { Automatic, Gpu, Cpu };  // imported planes are always converted by the GPU
@@ -35,12 +36,12 @@ class ColorPicture {
 
   // Takes the planes of a frame that passes `check`: 8 bits unchanged, from dma-bufs without a copy if the GL driver
   // allows it; more bits are cut to the top 8, which is what a display shows. Keeps a reference to the frame until the
-  // next one. HDR (PQ, HLG) is shown as a usual screen can: asSdr of the 8 bits.
+  // next one. HDR (PQ, HLG) is tone-mapped for an SDR screen: asSdr of the 8 bits.
   [[nodiscard]] Result<void> setFrame(const Frame& frame);
   // Whether the planes of the last frame were used without a copy.
   [[nodiscard]] bool isImported() const noexcept { return imported_; }
 
-  // Bytes that were uploaded of the last frame: 0 until it is bound, and if it is imported.
+  // Bytes of the last frame that were uploaded: 0 until it is bound, and if it is imported.
   [[nodiscard]] std::size_t uploadedBytes() const noexcept { return uploaded_bytes_; }
 
   // Uploads and converts the last frame, if that has not been done, and leaves the texture bound to `unit`, row 0 at
@@ -75,7 +76,7 @@ class ColorPicture {
   glm::ivec2 seen_samples_{0};  // per pixel of the texture; 0 if it does not hold the last frame
   std::size_t uploaded_bytes_ = 0;
   bool imported_ = false;
-  bool in_planes_ = false;  // the last frame
+  bool in_planes_ = false;  // the last frame's planes are on the GPU
   bool converted_ = false;
   Frame frame_;  // kept because a texture may use its memory
   ColorConverter gpu_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The planes of a colour picture to RGB by the GPU, and HDR to what a usual screen shows: asSdr in GLSL.
+// Converts the planes of a colour picture to RGB on the GPU, and HDR to SDR: asSdr in GLSL.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A view that is drawn smaller than it is shown, and stretched: for machines that cannot draw all pixels in time.
+// Draws a view smaller than it is shown, and stretches it: for machines that cannot draw all pixels in time.
 #pragma once
 
 #include "app/render/gl/gl_objects.h"
@@ -11,9 +11,9 @@ namespace relievo {
 // For the GL context's thread. Allocates a picture when a size is first drawn, another one when it changes.
 class ReducedView {
  public:
-  // Binds an empty framebuffer of this size, for what is drawn next.
+  // Binds an empty framebuffer of this size for the following drawing.
   [[nodiscard]] Result<void> bind(int width, int height);
-  // Stretches what was drawn over `area` of `framebuffer`, and binds that.
+  // Stretches the drawn picture over `area` of `framebuffer`, and binds that.
   void showOn(GLuint framebuffer, const PixelArea& area) const;
 
  private:

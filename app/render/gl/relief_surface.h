@@ -24,7 +24,7 @@ class ReliefSurface {
   void upload(const ReliefTriangles& triangles);
   // Without depth: the picture's flat rectangle.
   void uploadFlat(const DisplayVolume& volume, double z_mm);
-  // The last upload was flat.
+  // True if the last upload was flat.
   [[nodiscard]] bool isFlat() const noexcept { return flat_; }
   // Draws the last upload with the colour texture bound to `picture_unit`.
   void draw(const glm::mat4& view_projection, GLuint picture_unit) const;

@@ -35,7 +35,7 @@ struct RenderStatistics {
   std::size_t cut_cells = 0;   // cells cut at silhouettes
   bool imported = false;       // the colour planes are read from the decoder's memory (dma-buf), not uploaded
   double error_px = 0;         // error bound in effect, pixels
-  double size = 1;             // share of a view's width and height in which it is drawn; less: it is stretched
+  double size = 1;             // share of a view's width and height in which it is drawn; below 1 the view is stretched
   double mesh_ms = 0;          // making the triangles of one picture; moving average
   double frame_ms = 0;         // drawing one frame with all views, making the triangles included; moving average
   double words_px = 0;         // disparity of the subtitles; see WordsPlace
@@ -60,26 +60,25 @@ class SceneRenderer {
   // Allowed error of the shift between the eyes, traded for fewer triangles; the frame budget may enlarge it. Call
   // before the frame it applies to.
   void setError(double pixels) noexcept;
-  // Shown over the picture from now on, in the screen plane: each view has them at the same place. Needs the GL
-  // context.
+  // Shown over the picture from now on, in the screen plane, at the same place in each view. Needs the GL context.
   void setText(const TextFrame& frame, const std::vector<TextPicture>& pictures);
   // Shown just in front of the relief behind them (WordsPlace). Needs the GL context.
   void setSubtitles(const TextFrame& frame, const std::vector<TextPicture>& pictures);
   // The next picture does not continue the last one: the subtitles need not move smoothly.
   void cut() noexcept;
-  // What comes after the picture that is drawn next, for the subtitles; its reliefs must live until the next call.
+  // The reliefs of the following pictures, for the subtitles; they must live until the next call.
   void setAhead(const ReliefAhead& ahead) noexcept;
 
   // Uploads a pair; keeps a reference to the depth until the next one. Empty depth shows the colour as a flat picture
   // in the screen plane. Unsupported if the pixel format cannot be uploaded; the previous pair then stays.
-  // `calibration` and `volume` must be those of the haptic side. `right`, of a film of two views: what the right eye
-  // sees instead of `color`.
+  // `calibration` and `volume` must be those of the haptic side. `right`, for a stereo film: what the right eye sees
+  // instead of `color`.
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume, const Frame& right = {});
-  // Draws the last pair into `surface`, or without one the text on black. Blocks until the GPU has finished, so that
-  // the time can be measured.
+  // Draws the last pair into `surface`, or, without a pair, the text on black. Blocks until the GPU has finished, so
+  // that the time can be measured.
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
-  // What `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
+  // Reads back what `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
   [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);
   [[nodiscard]] RenderStatistics statistics() const noexcept;
 

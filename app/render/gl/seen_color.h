@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A colour picture as RGBA by the CPU, with no more samples than are seen.
+// Converts a colour picture to RGBA on the CPU, with no more samples than are visible.
 #pragma once
 
 #include <array>
@@ -19,12 +19,13 @@ namespace relievo {
 // the middles of its samples, as GL does. Where GL draws on the CPU, one pass here takes a tenth of its time.
 class SeenColor {
  public:
-  // Samples per pixel along a direction: the most, of factors 2 and 3 up to 16, that leave at least `shown` pixels.
+  // Samples averaged per pixel in one direction: the largest factor up to 16, a product of 2 and 3, that leaves at
+  // least `shown` pixels.
   [[nodiscard]] static int factorFor(int samples, int shown) noexcept;
 
   // `frame` has a format that ColorPicture takes. With codes of 8 bits (the top ones of wider codes) as fractions of
-  // 255, a pixel is to_rgb x components + bias. Of a size that is no multiple of `samples` (across, down), the rest
-  // beyond the last whole block is left out.
+  // 255, a pixel is to_rgb x components + bias. If the size is no multiple of `samples` (across, down), the rest beyond
+  // the last whole block is dropped.
   void make(const Frame& frame, glm::ivec2 samples, const glm::mat3& to_rgb, const glm::vec3& bias);
 
   [[nodiscard]] int width() const noexcept { return width_; }

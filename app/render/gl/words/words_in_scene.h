@@ -23,12 +23,12 @@ class WordsInScene {
   void set(const TextFrame& frame, const std::vector<TextPicture>& pictures);
   // The next picture does not continue the last one: they may stand anywhere.
   void cut() noexcept { place_.begin(); }
-  // A new picture comes, to which they move on.
+  // Call when a new picture comes: the subtitles move on to it.
   void newPicture() noexcept { due_ = true; }
-  // Finds their place in the present picture, once, so that a picture that is drawn again shows them where they were.
+  // Finds the subtitles' place in the present picture, once, so that a redrawn picture shows them at the same place.
   // Null: the picture is flat.
   void find(const ReliefTriangles* relief, const EyeViews& eyes, const StereoSettings& stereo);
-  // What comes after the picture that `find` gets; its reliefs must live until the next call.
+  // The reliefs after the picture that `find` gets; they must live until the next call.
   void setAhead(const ReliefAhead& ahead) noexcept { ahead_ = ahead; }
   // Into the viewport that is set, which is the view's.
   void draw(const EyeView& view, const StereoSettings& stereo) const;
