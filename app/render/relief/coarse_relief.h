@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest heights of a depth picture, block by block: enough to see from afar what will come under the subtitles.
+// The nearest heights of a depth picture, block by block: shows in advance what will be behind the subtitles.
 #pragma once
 
 #include <array>
@@ -22,23 +22,23 @@ class CoarseRelief {
   // Reads at most 4 x 4 samples of each block, whatever the size of the picture.
   [[nodiscard]] static CoarseRelief of(const HeightField& field);
 
-  // Those with a height.
+  // The blocks that have a height.
   [[nodiscard]] std::span<const Block> blocks() const noexcept { return blocks_; }
 
  private:
   std::vector<Block> blocks_;
 };
 
-// What comes after the present picture, in its shot.
+// The coming pictures of the present shot.
 struct ReliefAhead {
   struct Coming {
-    int pictures = 1;  // after the present one
+    int pictures = 1;  // distance from the present picture
     const CoarseRelief* relief = nullptr;
   };
   static constexpr std::size_t kMost = 8;
   std::array<Coming, kMost> coming{};  // ascending
   std::size_t count = 0;
-  bool more = true;  // pictures of the shot that are not known yet follow
+  bool more = true;  // further pictures of the shot follow that are not known yet
 
   [[nodiscard]] std::span<const Coming> known() const noexcept { return std::span(coming).first(count); }
 };

@@ -17,11 +17,11 @@ class DetailLevel {
   explicit DetailLevel(Duration budget) noexcept : budget_(budget) {}
 
   void setBudget(Duration budget) noexcept { budget_ = budget; }
-  // Tells how long it took to draw a frame at the present level.
+  // Reports how long drawing a frame at the present level took.
   void drew(Duration took) noexcept;
 
   [[nodiscard]] int level() const noexcept { return level_; }
-  // Factor on the error asked for, in pixels as drawn.
+  // Factor on the requested error, in pixels as drawn.
   [[nodiscard]] double factor() const noexcept;
   // Share of the view's width and height in which it is drawn.
   [[nodiscard]] double size() const noexcept;

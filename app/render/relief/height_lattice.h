@@ -23,7 +23,7 @@ class HeightLattice {
   [[nodiscard]] float jumpMm() const noexcept { return jump_mm_; }
 
   // At most about `most_across` cells in a row, and a number of rows that keeps the picture's aspect ratio. Returns
-  // whether there may be another height than in the last picture.
+  // false if all heights are certainly those of the last picture.
   bool read(const HeightField& field, int most_across);
 
   [[nodiscard]] int tile() const noexcept { return tile_; }

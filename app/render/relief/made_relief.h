@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of the present picture, made once for each detail that is asked for.
+// Caches the triangles of the present picture for the requested detail.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@ namespace relievo {
 
 class MadeRelief {
  public:
-  // Another picture: its triangles have to be made.
+  // Call for another picture: its triangles have to be made.
   void forgetPicture() noexcept { made_for_.reset(); }
-  // Makes the triangles, unless those of this picture and detail are there. True if they are not those of the last
-  // call; a picture with the same samples may have the same.
+  // Makes the triangles unless those of this picture and detail exist. True if they differ from those of the last call;
+  // a picture with the same samples may have the same.
   bool make(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& wanted);
 
   [[nodiscard]] const ReliefTriangles& triangles() const noexcept { return triangles_; }
-  [[nodiscard]] Duration making() const noexcept { return making_.value(); }  // of one picture
+  [[nodiscard]] Duration making() const noexcept { return making_.value(); }  // time to make one picture's
 
  private:
   ReliefTriangles triangles_;

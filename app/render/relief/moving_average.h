@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long something takes that is done again and again: the mean, in which the latest times count most. Pure.
+// Moving average of the time that a repeated task takes: recent times weigh most. Pure.
 #pragma once
 
 #include <cstdint>

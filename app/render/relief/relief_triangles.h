@@ -24,16 +24,16 @@ struct ReliefDetail {
   ViewSpan view;
   bool operator==(const ReliefDetail&) const = default;
 
-  // `most_across` for a picture that a view shows `pixels` wide. Outlines lie half way between vertices: so they are
-  // within half a pixel of where they should be, whatever the size of the depth picture. Since most triangles stand
-  // along outlines, an error that is allowed to grow by `factor` widens the vertices' pitch too, up to twice.
+  // `most_across` for a picture that a view shows `pixels` wide. Outlines lie half way between vertices, so this keeps
+  // them within half a pixel of their true place, whatever the size of the depth picture. Since most triangles lie
+  // along outlines, a permitted error that grows by `factor` also widens the vertices' pitch, up to twice.
   [[nodiscard]] static int cellsFor(double pixels, double factor = 1) noexcept;
 };
 
 // Pure arithmetic for one thread; memory is kept from frame to frame.
 class ReliefTriangles {
  public:
-  // Returns false if the last picture's triangles are this one's too: nothing was made then.
+  // Returns false if the triangles are the same as the last picture's: nothing was made then.
   bool build(const HeightField& field, const DisplayVolume& volume, const ReliefDetail& detail);
 
   [[nodiscard]] const OutputArray<TexturedVertex>& vertices() const noexcept { return vertices_; }
@@ -42,7 +42,7 @@ class ReliefTriangles {
   // all of them meets the picture's own colours.
   [[nodiscard]] const OutputArray<std::uint32_t>& indices() const noexcept { return indices_; }
   [[nodiscard]] std::size_t surfaceTriangles() const noexcept { return network_.triangles().size(); }
-  // Samples that the last picture was looked at in, those that had not changed included.
+  // Samples of the last picture that were examined, including unchanged ones.
   [[nodiscard]] std::size_t samples() const noexcept { return lattice_.size(); }
   [[nodiscard]] std::size_t cutCells() const noexcept { return cuts_.cells().size(); }
 

@@ -79,8 +79,8 @@ struct EyeViews {
 };
 [[nodiscard]] EyeViews eyeViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height);
 
-// What the parts of such a surface show, for a mouse that points at it. In a mixed layout that is what the middle
-// between the eyes sees.
+// What each part of such a surface shows, for a mouse that points at it. In a mixed layout that is the view from midway
+// between the eyes.
 [[nodiscard]] SceneViews sceneViews(const StereoSettings& settings, const DisplayVolume& volume, int width, int height);
 
 // Why this surface cannot show the layout, and what would help; null if it can.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far in front of the screen subtitles stand: just in front of what is behind them. Pure arithmetic.
+// The depth at which subtitles are shown: just in front of the relief behind them. Pure arithmetic.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,18 @@ struct WordsBox {
   bool operator==(const WordsBox&) const = default;
 };
 
-// Disparities are in pixels of a view: where the left eye sees a thing minus where the right eye sees it, positive in
-// front of the screen.
+// Disparities are in pixels of a view: the left eye's position of a point minus the right eye's, positive in front of
+// the screen.
 //
-// The words follow the nearest relief under their box, and they begin to move before it is there: their disparity
-// changes by kStep a picture and no more, if what comes is known early enough. It is known
+// The subtitles follow the nearest relief under their box, and start moving before it arrives: their disparity changes
+// by at most kStep a picture if the coming relief is known early enough. It is known
 // - where the pictures after the present one are read ahead (ReliefAhead): n of them leave room for n + 1 steps;
-// - where a thing is seen beside the box: it counts less the farther away it is, so that what comes from the side at up
-//   to kFastest of the width a picture (kFastestBlind without pictures ahead) lifts the words in time.
-// What rises higher than that, or enters the picture right beside the words, moves them faster than kStep, in equal
-// steps over the pictures that are left, since words behind a thing that they cover hurt the eyes; `lifted` counts
-// those pictures.
+// - where an object is seen beside the box: its height counts less the farther away it is, so that an object that comes
+// from the side at up to kFastest of the width a picture (kFastestBlind without pictures ahead) raises the subtitles in
+// time.
+// An object that rises higher than that, or enters the picture right beside the subtitles, moves them faster than
+// kStep, in equal steps over the remaining pictures, since words behind an object that they cover hurt the eyes;
+// `lifted` counts those pictures.
 class WordsPlace {
  public:
   static constexpr double kStep = 1.0;               // px a picture
@@ -36,19 +37,19 @@ class WordsPlace {
   static constexpr double kFastestBlind = 1.0 / 40;  // without pictures ahead
   static constexpr double kInFront = 0.002;  // of the picture's width: the disparity from the relief to the words
 
-  // Other words, or a cut: they may stand anywhere.
+  // Call for other words, or a cut: the subtitles may start anywhere.
   void begin() noexcept { begins_ = true; }
-  // For the next picture. `indices`: three for each triangle of the surface. `ahead`: what comes after it.
+  // Call for the next picture. `indices`: three for each triangle of the surface. `ahead`: the coming reliefs.
   void follow(std::span<const TexturedVertex> vertices, std::span<const std::uint32_t> indices, const WordsBox& box,
               const StereoSettings& stereo, double width_px, double pixels_per_mm, const ReliefAhead& ahead = {});
-  // The picture is flat.
+  // Call if the picture is flat.
   void stayInScreen() noexcept { disparity_ = behind_ = 0; }
 
   [[nodiscard]] double disparity() const noexcept { return disparity_; }
-  // The disparity of the nearest relief behind the words, in the last picture.
+  // The disparity of the nearest relief behind the subtitles, in the last picture.
   [[nodiscard]] double behind() const noexcept { return behind_; }
   [[nodiscard]] std::uint64_t lifted() const noexcept { return lifted_; }
-  // The shift to the right of the words in the view of the eye at `eye_x_mm`.
+  // How far to the right the subtitles are shifted in the view of the eye at `eye_x_mm`.
   [[nodiscard]] double shiftPx(double eye_x_mm, const StereoSettings& stereo) const noexcept;
 
  private:

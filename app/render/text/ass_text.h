@@ -30,11 +30,11 @@ class AssText {
   // Scales the letters; 1 is the size that the script says.
   void setSize(double factor) noexcept;
 
-  // What is shown at `time`, as few pictures that do not overlap, in `pictures`. False if they are the same as the last
-  // time: nothing is changed then, unless it is made `anew`.
+  // Renders what is shown at `time` to `pictures`: as few pictures as possible, which do not overlap. False if they are
+  // the same as last time: `pictures` is then unchanged, unless `anew` is set.
   bool draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures, bool anew = false);
 
-  // Text as it is, without any meaning of braces and backslashes.
+  // Escapes text, so that braces and backslashes have no meaning.
   [[nodiscard]] static std::string escaped(std::string_view text);
 
  private:

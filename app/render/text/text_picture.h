@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// One eye's view, from its top left. The film's picture lies in it between margins.
+// One eye's view, from its top left. The film's picture lies in it between the margins.
 struct TextFrame {
   int width = 0, height = 0;       // pixels
   double aspect = 16.0 / 9;        // width over height as the viewer sees it: a half of sbs is stretched
