@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of bytes in memory of its own, as image processing takes it. Pure.
+// A picture of bytes that owns its memory, for image processing. Pure.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// `Parts` says what the bytes of a pixel are, and how many: Parts::kCount. Row by row, pixel by pixel, without gaps.
+// `Parts` defines the bytes of a pixel and their number, Parts::kCount. Row by row, pixel by pixel, without gaps.
 template <class Parts>
 struct BytePicture {
   int cols = 0, rows = 0;

@@ -32,8 +32,8 @@ class ColorCurve {
   explicit ColorCurve(std::span<const std::uint32_t> knots);
 
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
-  // The place from `low` to `high` that is nearest when an error of chroma counts less than one of luma, as where
-  // chroma is mixed; and the colour's squared distance from it in that measure.
+  // The point of the curve from `low` to `high` that is nearest to the colour if an error of chroma counts less than
+  // one of luma, as where chroma is mixed; and the squared distance in that metric.
   struct Between {
     float s = 0, error = 0;
   };
@@ -60,7 +60,8 @@ class ColorCurve {
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
 };
 
-// The curve of a code other than luma. It is made at the first call, which a real-time thread must not make, and stays.
+// The curve of a code other than luma. The first call creates it, which a real-time thread must not do; later calls
+// return the same object.
 [[nodiscard]] const ColorCurve& curveOf(DepthCode code);
 
 }  // namespace relievo

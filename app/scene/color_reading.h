@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth that is coded in the colours of a picture: which place of the code's curve a sample stands for.
+// Reads depth that is coded in colours: the position of each sample on the code's curve.
 #pragma once
 
 #include <limits>
@@ -12,14 +12,14 @@
 
 namespace relievo {
 
-// Trivially copyable. Does not own the samples. A place is 0 to 1 along the ColorCurve, or NaN at a hole.
+// Trivially copyable. Does not own the samples. A position is 0 to 1 along the ColorCurve, or NaN at a hole.
 //
-// It is the point of the curve that is nearest to the colour. Subsampled chroma mixes the two sides of a depth edge to
-// a colour off the curve. Such a sample takes the reading of the near sample whose brightness is most like its own,
-// since brightness is not subsampled; if that one is black or red, it is a hole. Where the edge is soft, and a place of
-// the curve between the two sides explains the colour better, it is that place. If no near sample is on the curve, its
-// own reading counts if it is not far off. Red, where both ends of the depth meet on the circle of hues, is a hole in
-// YUV unless a surface beside it ends there.
+// It is the point of the curve that is nearest to the sample's colour. Subsampled chroma mixes the two sides of a depth
+// edge to a colour off the curve. Such a sample takes the reading of the nearby sample whose brightness is most like
+// its own, since brightness is not subsampled; if that one is black or red, it is a hole. Where the edge is soft, and a
+// point of the curve between the two sides explains the colour better, that point is used. If no nearby sample is on
+// the curve, the sample's own reading is used if its colour is not far off. Red, where both ends of the depth meet on
+// the circle of hues, is a hole in YUV unless a surface beside it ends there.
 class ColorReading {
  public:
   ColorReading() = default;  // reads nothing

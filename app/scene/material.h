@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a film's surface feels like besides its shape: stiffness, friction and texture.
+// A film's material: stiffness, friction and texture of its surface.
 #pragma once
 
 #include <map>
@@ -23,7 +23,8 @@ struct Texture {
   bool operator==(const Texture&) const = default;
 };
 
-// Of a whole film. What is not said is the player's own choice: its stiffness, and neither friction nor texture.
+// The material of a whole film. Parts that are not stated are the player's choice: its usual stiffness, and neither
+// friction nor texture.
 struct Material {
   std::optional<double> stiffness_n_per_mm;
   std::optional<Friction> friction;
@@ -36,21 +37,21 @@ struct Material {
 // The tag of a film's depth track that holds a material, in the words of `parseMaterial`.
 inline constexpr const char* kMaterialTag = "DEPTH_MATERIAL";
 
-// The tag of a material track: what its full codes stand for, in the same words. A part that it leaves out is not in
-// the track.
+// The tag of a material track that holds the values of its full codes, in the same words. The track does not contain a
+// part that the tag leaves out.
 inline constexpr const char* kMaterialScaleTag = "MATERIAL_SCALE";
-// The player's, on a device that holds it; what an author's map does not paint has it, too.
+// The player's stiffness, on a device that can hold it; also that of unpainted places of an author's map.
 inline constexpr double kUsualStiffnessNPerMm = 0.5;
 
 // Parses "stiffness=.3,friction=.2/.15,texture=.1@.8": N/mm from .01 to 100; static/dynamic coefficients up to 2, the
 // second at most the first, which also stands for both; amplitude up to 2 mm, at a wavelength from .1 to 100 mm, or 0.
 // InvalidArgument with a message that says what is wrong.
 [[nodiscard]] Result<Material> parseMaterial(std::string_view text);
-// What a film's tags say of it; an empty one without kMaterialTag, and InvalidArgument if that is no material.
+// Reads a film's tags; returns an empty material without kMaterialTag, and InvalidArgument if its value is none.
 [[nodiscard]] Result<Material> materialFromTags(const std::map<std::string, std::string>& tags);
 // In the form that `parseMaterial` reads; "" for an empty one.
 [[nodiscard]] std::string materialText(const Material& material);
-// What `above` does not say is as `below` says.
+// `above`, with the parts that it leaves out taken from `below`.
 [[nodiscard]] Material layered(const Material& above, const Material& below) noexcept;
 
 // What a device can hold: its own stable stiffness and largest force, N/mm and N, at the handle.
@@ -58,14 +59,14 @@ struct HeldMaterial {
   double stiffness_n_per_mm = 0;
   Friction friction;
   Texture texture;
-  std::string reduced;  // what was asked for and is not held, in one line; "" if nothing was reduced
+  std::string reduced;  // the parts that exceed the device, in one line; "" if nothing was reduced
 };
-// `usual_n_per_mm` holds for a film without a stiffness of its own. A texture is a stiffness, too: its force changes by
-// stiffness x slope on the way over a ripple. That stays below the device's, and its amplitude below a quarter of the
-// force.
+// `usual_n_per_mm` is used for a film without a stiffness of its own. A texture also acts as a stiffness: over a ripple
+// its force changes by stiffness x slope. That is kept below the device's stiffness, and its amplitude below a quarter
+// of the force.
 [[nodiscard]] HeldMaterial heldBy(const Material& material, double usual_n_per_mm, double most_n_per_mm, double most_n);
 
-// The same for a material track: what its full codes stand for on a device, and the bounds at each place.
+// The same for a material track: the values of its full codes on a device, and the bounds at each place.
 struct HeldScale {
   std::optional<double> stiffness_n_per_mm;
   std::optional<Friction> friction;
@@ -75,11 +76,11 @@ struct HeldScale {
 
   [[nodiscard]] bool exists() const noexcept { return stiffness_n_per_mm || friction || texture; }
 };
-// `whole`: the whole film's, for what the track leaves out.
+// `whole`: the whole film's material, for the parts that the track leaves out.
 [[nodiscard]] HeldScale scaleHeldBy(const Material& full, const Material& whole, double most_n_per_mm, double most_n);
-// What such a device does not hold of a track, in one line; "" if it holds all.
+// The parts of a track that exceed such a device, in one line; "" if there are none.
 [[nodiscard]] std::string reducedScale(const Material& full, double most_n_per_mm);
-// What `above` says is no longer the track's.
+// `full`, without the parts that `above` states: these no longer come from the track.
 [[nodiscard]] Material withoutThoseOf(const Material& above, const Material& full) noexcept;
 
 }  // namespace relievo

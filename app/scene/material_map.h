@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surface feels like at each place: a view of a picture of the film's material track.
+// The material at each place of the surface: a view of a picture of the film's material track.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class MaterialMap {
   // Unsupported unless the picture is YUV of 8 bits.
   [[nodiscard]] static Result<MaterialMap> make(const Frame& picture, const DisplayVolume& volume) noexcept;
 
-  // Linear between the samples; beyond the last ones they go on. Places in mm of the scene, finite.
+  // Interpolates linearly between the samples and repeats the border samples. Positions in mm of the scene, finite.
   [[nodiscard]] Shares at(double x_mm, double y_mm) const RELIEVO_RT;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples of a block stand for all of them.
+// Selects the samples of a block that represent all of them.
 #pragma once
 
 #include "platform/realtime.h"
@@ -10,8 +10,8 @@ namespace relievo {
 // them if there are no more. If they were off centre by half a sample, the mean of a slope would be wrong by half a
 // sample's rise. Lengths are in samples; `most` is at least 1.
 //
-// Where whole rows are read as quickly as a few samples of them, a block is read in few whole rows: about as many
-// samples, in fewer cache lines.
+// If reading whole rows is as quick as reading a few of their samples, few whole rows of a block are read: about as
+// many samples, in fewer cache lines.
 struct SampledBlock {
   struct Places {
     int count = 1, step = 1, first = 0;
@@ -26,8 +26,8 @@ struct SampledBlock {
                                                                          height(block_height),
                                                                          across(block_width, most),
                                                                          down(block_height, most) {}
-  // Of a block of whole rows: fewer would hit the same height of the steps on too many slopes. A row of a wide block
-  // crosses more steps by itself.
+  // For a block of whole rows: with fewer rows, too many slopes would be sampled at the same height of the depth's
+  // steps. A row of a wide block crosses more steps by itself.
   [[nodiscard]] static constexpr int fewestRows(double block_width) RELIEVO_RT { return block_width < 64 ? 6 : 4; }
   [[nodiscard]] static SampledBlock ofWholeRows(int block_width, int block_height, int most) RELIEVO_RT;
 };
