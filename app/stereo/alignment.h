@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the right view lies against the left one, and the correction of it.
+// Measures how the right view is misaligned with the left one, and corrects it.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ struct PointPair {
   double left_x = 0, left_y = 0, right_x = 0, right_y = 0;
 };
 
-// Corners and blobs (AKAZE) whose descriptions are like those of one point in the other view alone. Points that moved
-// by more than a quarter of the width or a tenth of the height are left out.
+// Corners and blobs (AKAZE) whose descriptors match only one point of the other view. Points that moved by more than a
+// quarter of the width or a tenth of the height are left out.
 [[nodiscard]] std::vector<PointPair> findPairs(const ViewPicture& left, const ViewPicture& right);
 
 // y in the left view = shift + zoom * (y + turn * x) in the right one, for small turns, in pixels from the centres.
@@ -29,7 +29,7 @@ struct Alignment {
 
 struct AlignmentFit {
   Alignment alignment;
-  double rest = 0;  // pixels: median distance in height of the points after it
+  double rest = 0;  // pixels: median vertical distance of the points after it
   int points = 0;
 };
 

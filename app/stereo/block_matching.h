@@ -13,10 +13,10 @@ namespace relievo {
 [[nodiscard]] cv::Mat asMat(const ViewPicture& view);
 [[nodiscard]] cv::Mat lumaOf(const ViewPicture& view);
 
-// OpenCV's matcher alone (CV_32F): what is not found is -infinity.
+// OpenCV's matcher alone (CV_32F): pixels without a match are -infinity.
 [[nodiscard]] cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange range, int block);
 
-// The same as its documentation uses it, with its own check of both eyes, of uniqueness and of specks.
+// The same as OpenCV's documentation uses it, with its own left-right check, uniqueness check and speckle filter.
 [[nodiscard]] cv::Mat matchPlainly(const cv::Mat& left, const cv::Mat& right, DisparityRange range);
 // OpenCV's block matching, likewise.
 [[nodiscard]] cv::Mat matchBlocks(const cv::Mat& left, const cv::Mat& right, DisparityRange range);

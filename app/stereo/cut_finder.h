@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a shot begins, told from one view's pictures.
+// Finds where a shot begins, from one view's pictures.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// A picture begins a shot if it differs from the one before by much, and by much more than that one did from its own:
-// fast motion changes every picture alike.
+// A picture begins a shot if it differs much from the one before, and much more than that one did from its predecessor:
+// fast motion changes every picture equally.
 class CutFinder {
  public:
   // The next picture's brightness(x, y), 0 .. 255. True if it begins a shot, as the first one does.
@@ -27,7 +27,7 @@ class CutFinder {
     before_ = now;
     return first || cut;
   }
-  // The next picture does not continue the last one.
+  // Call if the next picture does not continue the last one.
   void forget() noexcept { before_.reset(); }
 
  private:

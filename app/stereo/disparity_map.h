@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each point of the left view has moved in the right one.
+// The disparity of each point of the left view in the right one.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +8,13 @@
 
 namespace relievo {
 
-// Of the points of a scene, in pixels of a view: x in the left view less x in the right one. Near is high; 0 lies in
-// the screen, less behind it.
+// The disparities of a scene's points, in pixels of a view: x in the left view minus x in the right one. Near is high;
+// 0 lies in the screen, negative behind it.
 struct DisparityRange {
   int lowest = 0, highest = 0;
 };
 
-// The nearest whole number, of those between away from 0: std::lround without its call.
+// The nearest whole number, halves away from 0: std::lround without its call.
 [[nodiscard]] inline int nearest(float x) noexcept {
   return static_cast<int>(x + (x < 0 ? -0.5F : 0.5F));
 }

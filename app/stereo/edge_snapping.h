@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the steps of a disparity map to the outlines that the colours show.
+// Moves the steps of a disparity map to the outlines in the colour picture.
 #pragma once
 
 #include "app/stereo/disparity_map.h"
@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// The map has no holes. Pixels near a step, and those that were not seen, choose among the disparities around them: by
-// how well each fits the right view and how like its pixels are in colour.
+// The map must have no holes. Each pixel near a step, and each that was not seen, chooses among the disparities around
+// it: by how well each fits the right view, and how similar in colour its pixels are.
 void snapEdges(DisparityMap& map, const ViewPicture& left, const ViewPicture& right);
 
 }  // namespace relievo

@@ -24,7 +24,7 @@ class ViewTone {
 struct Exposure {
   std::array<double, 3> gain{1, 1, 1}, offset{};
 
-  // Whether the difference may be seen: more than 6 % of contrast, or 4 levels.
+  // True if the difference may be visible: more than 6 % of contrast, or 4 levels.
   [[nodiscard]] bool isNeeded() const;
 };
 

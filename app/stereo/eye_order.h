@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells from two views which eye's is which.
+// Determines which of two views is the right eye's.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace relievo {
 
-// Where the disparity rises from left to right, points lie between that the left eye alone sees. They belong to the far
-// side: with the eyes in order that is their left one, with the eyes swapped their right one. The colours tell. In the
-// right view, the same holds in a mirror.
+// Where the disparity rises from left to right, there are points between both sides that only the left eye sees. They
+// belong to the far side: its left one if the eyes are in order, its right one if they are swapped. Their colours show
+// which. The same holds, mirrored, in the right view.
 struct EyeVotes {
   std::uint64_t in_order = 0, swapped = 0;  // pixels
 
   EyeVotes& operator+=(const EyeVotes& other) noexcept;
-  // Both may be false: too little to tell. Few votes tell if hardly any is against them.
+  // Both may be false if there are too few votes. Few votes suffice if hardly any is against them.
   [[nodiscard]] bool areSwapped() const noexcept { return tell(swapped, in_order); }
   [[nodiscard]] bool areInOrder() const noexcept { return tell(in_order, swapped); }
 
@@ -24,7 +24,7 @@ struct EyeVotes {
   [[nodiscard]] static bool tell(std::uint64_t votes, std::uint64_t others) noexcept;
 };
 
-// `map` as matched, `seen` told, of the left view; `from_right` -infinity where nothing was found.
+// `map`: of the left view, matched, with `seen` set; `from_right` is -infinity where nothing was found.
 [[nodiscard]] EyeVotes voteOnEyes(const DisparityMap& map, const ViewPicture& left, const ViewPicture& right);
 
 }  // namespace relievo

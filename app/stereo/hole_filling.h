@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives a disparity to the points that only one eye sees or that could not be matched.
+// Assigns a disparity to points that only one eye sees or that could not be matched.
 #pragma once
 
 #include "app/stereo/disparity_map.h"
@@ -7,8 +7,9 @@
 
 namespace relievo {
 
-// A shadow, which the near side hides from the right eye, gets the disparity of its farther side. Other holes get that
-// of the points around that are most like them in colour. Nothing is left out; `seen` stays as it is.
+// An occluded area, which the near side hides from the right eye, gets the disparity of its farther side. Other holes
+// get that of the surrounding points that are most similar in colour. Afterwards every point has a disparity; `seen` is
+// not changed.
 void fillHoles(DisparityMap& map, const ViewPicture& left);
 
 }  // namespace relievo

@@ -16,8 +16,8 @@ namespace relievo {
 // The disparity of two views that lie row by row: matched from both eyes, holes filled, steps moved to the outlines.
 [[nodiscard]] DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
 
-// What charts and tests hold it against: one of OpenCV's matchers alone, as its documentation uses it, on brightness;
-// each hole takes the farther of its two sides in its row.
+// For comparison in charts and tests: one of OpenCV's matchers alone, as its documentation uses it, on brightness; each
+// hole takes the farther of its two sides in its row.
 enum class PlainMatcher : std::uint8_t { SemiGlobal, Blocks };
 [[nodiscard]] DisparityMap plainDisparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range,
                                             PlainMatcher matcher = PlainMatcher::SemiGlobal);

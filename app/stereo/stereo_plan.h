@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a survey found out about a film of two views, shot by shot.
+// The results of surveying a film of two views, shot by shot.
 #pragma once
 
 #include <string>
@@ -12,22 +12,22 @@
 
 namespace relievo {
 
-// One shot is corrected and scaled alike from its first picture to its last, so that nothing breathes.
+// The whole of a shot is corrected and scaled alike, so that nothing seems to move in depth.
 struct ShotPlan {
   MediaTime begin;
   Alignment alignment;
-  bool is_aligned = false;  // the right view has to be moved
+  bool is_aligned = false;  // the right view has to be aligned
   Exposure exposure;
-  bool is_balanced = false;  // the right view has to be brought to the left one's tone
+  bool is_balanced = false;  // the right view has to be matched to the left one's exposure
   DisparityRange range;
-  bool has_depth = false;  // else the shot is flat: a view is black, or nothing was found in both
+  bool has_depth = false;  // false: the shot is flat: a view is black, or both have nothing in common
 };
 
 struct StereoPlan {
   int cols = 0, rows = 0;  // of a view
   std::vector<ShotPlan> shots;
   bool views_swapped = false;      // the first view is the right eye's
-  bool order_known = false;        // else the pictures do not tell which eye's is first
+  bool order_known = false;        // false: the pictures do not show which eye's view is first
   std::vector<std::string> notes;  // what was corrected; one line each
 
   // The shot at a time; the first one before it begins.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks through a film of two views: where its shots begin, how the views lie, and how near and far it reaches.
+// Surveys a film of two views: where shots begin, how the views are aligned, and the range of disparities.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,14 @@
 
 namespace relievo {
 
-// Use from one thread; OpenCV's threads help. Memory does not grow with the film's length but for its shots.
+// Use from one thread; OpenCV's threads help. Memory does not grow with the film's length, except with the number of
+// shots.
 class StereoSurvey {
  public:
-  // The next pictures, in order, of one size each. Unsupported if a size changes.
+  // Adds the next pictures, in order, each view of one size. Unsupported if a size changes.
   [[nodiscard]] Result<void> add(const Frame& left, const Frame& right);
-  // After the last picture. Unsupported if there is no depth to be had: one view is black, both are the same picture,
-  // or they have nothing in common.
+  // Call after the last picture. Unsupported if there is no depth: one view is black, both are the same picture, or
+  // they have nothing in common.
   [[nodiscard]] Result<StereoPlan> finish();
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One eye's picture as the matcher takes it: brightness and colour of 8 bits.
+// One eye's picture as the matcher takes it: 8-bit brightness and colour.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma);
   return std::abs(p[0] - q[0]) + std::abs(p[1] - q[1]) + std::abs(p[2] - q[2]);
 }
 
-// Any colour picture: YUV as it is but for its range and bits, RGB by the weights of BT.601, gray without colour.
+// Converts any colour picture: YUV adjusted only in range and bits, RGB by the weights of BT.601, gray without colour.
 [[nodiscard]] ViewPicture readView(const Frame& frame);
 
 }  // namespace relievo

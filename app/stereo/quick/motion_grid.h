@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How disparities change on the whole, place by place and surface by surface.
+// Changes of disparity from picture to picture, by place and by surface.
 #pragma once
 
 #include <algorithm>
@@ -21,11 +21,11 @@ class MotionGrid {
     cell.count += 1;
     cell.sum += change;
   }
-  // After all were added.
+  // Call after all changes were added.
   void smooth();
   struct Change {
-    float pixels = 0;     // the mean around, between the cells; one that is no more than their noise counts little
-    float stillness = 1;  // near 1 where it is no more than noise, near 0 where it is much more
+    float pixels = 0;     // the surrounding mean, interpolated between cells; a mean near the noise counts little
+    float stillness = 1;  // near 1 if it is no more than noise, near 0 if it is much more
   };
   [[nodiscard]] Change at(int c, int r, float disparity) const noexcept {
     const float u = static_cast<float>(c % kCell) / kCell, v = static_cast<float>(r % kCell) / kCell;
@@ -39,7 +39,7 @@ class MotionGrid {
  private:
   static constexpr int kCell = 16;        // pixels
   static constexpr float kLayer = 1.5F;   // pixels of disparity
-  static constexpr float kNoise = 0.03F;  // pixels: what a mean of cells is off by where nothing moves
+  static constexpr float kNoise = 0.03F;  // pixels: error of a cell's mean where nothing moves
 
   struct Cell {
     float count = 0, sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth pictures from the two views of a film while it plays.
+// Makes depth pictures from the two views of a film while it plays.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@
 
 namespace relievo {
 
-// One shot is scaled alike from its first picture to its last, so that nothing breathes: by the range that its first
-// picture shows, with some to spare; what comes nearer or goes farther later lies at the end of the range, and is
-// matched where it is, since a matcher that looks elsewhere finds another place in each picture. A right view that
-// lies lower or higher, or is turned by up to two degrees, is straightened by what the shot's first picture shows.
-// Views in the wrong order are told by what one eye alone sees, in the first picture or in several of the first two
-// dozen, and matched in the right one from then on: as if a shot began there. Pictures come in order, not necessarily
-// all of them. Use from one thread.
+// The whole of a shot has one scale, so that nothing seems to move in depth: the range of its first picture, plus a
+// margin. What comes nearer or goes farther later is placed at the range's end, but still matched at its true
+// disparity, since a restricted matcher finds another wrong place in each picture. A right view that is shifted
+// vertically, or turned by up to two degrees, is corrected by values from the shot's first picture. Swapped views are
+// recognised by the points that only one eye sees, in the first picture or in several of the first two dozen, and
+// exchanged from then on, as if a shot began there. Pictures come in order, not necessarily all of them. Use from one
+// thread.
 class QuickDepth {
  public:
   static constexpr int kCols = 640;                                   // of a depth picture, at most
@@ -32,20 +32,20 @@ class QuickDepth {
   // One of kMatchedCols, from the next shot on.
   void setMatchedCols(int cols) noexcept { wished_cols_ = cols; }
   [[nodiscard]] int matchedCols() const noexcept { return matched_cols_; }
-  // The next picture does not continue the last one.
+  // Call if the next picture does not continue the last one.
   void beginShot() noexcept { cuts_.forget(); }
-  // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, none a hole; with the left
-  // view's time, in its shape. A shot without depth, as one with a black view, lies in the middle.
+  // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, without holes; with the left
+  // view's time and shape. A shot without depth, such as one with a black view, has the middle code.
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
-  // Whether both views show the same things in the present shot, and not the same picture.
+  // True if both views show the same scene in the present shot, and are not the same picture.
   [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
   // True if both views of the present shot are the same picture, so that they give no depth.
   [[nodiscard]] bool isOnePicture() const noexcept { return one_picture_; }
-  // Whether the right eye's view came first. The depth is that of the view that came first all the same.
+  // True if the right eye's view came first. The depth is still that of the view that came first.
   [[nodiscard]] bool areSwapped() const noexcept { return swapped_; }
-  // Whether the present shot was asked for it, and neither it nor those before it told.
+  // True if the present shot was examined, and neither it nor those before it showed the order.
   [[nodiscard]] bool isOrderUnknown() const noexcept { return range_ && votes_left_ == 0 && !isOrderTold(); }
-  // What the lowest and the highest code of the present shot mean: disparities as parts of the width, near is high.
+  // The disparities of the present shot's lowest and highest code, as parts of the width; near is high.
   struct Range {
     float low = 0, high = 0;
   };
@@ -68,13 +68,13 @@ class QuickDepth {
   int wished_cols_ = kMatchedCols[2], matched_cols_ = kMatchedCols[2];
   CutFinder cuts_;
   std::optional<Range> range_;
-  Range matched_;       // the same and what has come since
-  int since_look_ = 0;  // pictures
-  int votes_left_ = 0;  // of the shot, on the eyes
-  int lower_ = 0;       // rows of the right view by which it lies too low
+  Range matched_;       // extended by what has come since
+  int since_look_ = 0;  // pictures since the last check
+  int votes_left_ = 0;  // pictures of the shot that may still vote on the eyes
+  int lower_ = 0;       // rows by which the right view lies too low
   double turned_ = 0;   // radians by which it is turned clockwise
   bool one_picture_ = false, swapped_ = false;
-  EyeVotes eyes_;                     // of the shots' pictures, those of older shots less
+  EyeVotes eyes_;                     // summed over the shots, older shots with less weight
   std::optional<Exposure> exposure_;  // that the right view needs
   ViewPicture left_, right_, small_left_, small_right_;
   QuickMatching matching_;

@@ -14,8 +14,8 @@ namespace relievo {
 // (Hirschmueller, PAMI 2008). Keeps its memory from picture to picture.
 class QuickMatching {
  public:
-  // Views of one size that lie row by row. `seen`: the right view has the same point there, and it is no speck. Other
-  // pixels keep what the left view found; `from_right` is -infinity where nothing was found.
+  // The views have one size, row by row. `seen`: the right view has the same point there, and it is no speckle. Other
+  // pixels keep the left view's match; `from_right` is -infinity where nothing was found.
   [[nodiscard]] const DisparityMap& match(const ViewPicture& left, const ViewPicture& right, DisparityRange range);
 
  private:

@@ -12,15 +12,15 @@ struct ViewSize {
   bool operator==(const ViewSize&) const = default;
 };
 
-// As wide as `cols`, but no wider than the picture, and in the shape in which it is shown: a view that was squeezed to
+// The size with `cols` columns, at most the picture's, in the shape in which it is shown: a view that was squeezed to
 // half of its width has half as many rows.
 [[nodiscard]] ViewSize reducedSize(const Frame& view, int cols) noexcept;
 
-// The mean of up to 4 x 4 samples of each cell, taken so many of the view's rows further down, its last one repeated.
-// `into` keeps its memory.
+// The mean of up to 4 x 4 samples of each cell, read `lower` rows further down in the view, its last row repeated.
+// Reuses the memory of `into`.
 void readSmall(const Frame& view, ViewSize size, ViewPicture& into, int lower = 0);
 
-// The mean of the cells of a picture that is as large or larger.
+// Reduces a picture that is as large or larger to the means of its cells.
 void reduce(const ViewPicture& view, ViewSize size, ViewPicture& into);
 
 // Left and right exchanged.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps disparities steady from picture to picture where the picture shows the same things.
+// Stabilises disparities from picture to picture where the picture shows the same objects.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@
 
 namespace relievo {
 
-// Each pixel is followed along the motion of the left view. Where it shows what it showed before, its disparity is the
-// mean of those that were found since, so that noise and a matcher's rounding are not felt. What moves to the viewer or
-// away does so over an area: that part of the change is taken at once. Where another surface is found at the same
-// thing, the two views decide between both; a surface that keeps being found is believed in the end. What has come to
-// light, or changed its colour, is taken as found. Use from one thread; keeps its memory.
+// Each pixel is tracked along the motion of the left view. While it shows the same, its disparity is the mean of those
+// found since it appeared, so that noise and the matcher's rounding cannot be felt. Motion toward the viewer or away
+// covers an area: that part of the change is taken at once. Where another surface is found on the same object, the two
+// views decide between them; a surface that keeps being found is accepted in the end. Uncovered pixels, and those that
+// changed colour, take the new disparity. Use from one thread; keeps its memory.
 class SteadyDisparity {
  public:
-  // The next map continues nothing.
+  // Call if the next map does not continue the last one.
   void begin() noexcept { before_.reset(); }
-  // Views as large as the map.
+  // The views must be as large as the map.
   void steady(DisparityMap& map, const ViewPicture& left, const ViewPicture& right);
 
  private:
-  // What a pixel had in the picture before.
+  // A pixel's values in the picture before.
   struct Was {
     float disparity = 0;
     std::uint8_t age = 0, strays = 0;
@@ -43,13 +43,13 @@ class SteadyDisparity {
   void findChanges(const DisparityMap& map);
   void average(DisparityMap& map);
 
-  std::optional<GrayPicture> before_;             // small, in which motion is looked for
+  std::optional<GrayPicture> before_;             // small, for motion estimation
   std::vector<std::uint8_t> left_, left_before_;  // three bytes a pixel
   std::vector<std::uint8_t> left_luma_, right_luma_;
-  std::vector<float> disparity_;            // of the picture before, as steady as it was
+  std::vector<float> disparity_;            // steadied, of the picture before
   std::vector<std::uint8_t> age_, strays_;  // pictures, of the picture before
   std::vector<std::uint16_t> changes_;      // levels, since the picture before
-  std::vector<std::uint8_t> still_;         // 1: shows what it showed
+  std::vector<std::uint8_t> still_;         // 1: still shows the same
   std::vector<Was> was_;
   MotionGrid towards_;
 };

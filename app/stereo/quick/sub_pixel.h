@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings disparities that are right to a pixel to a small part of one.
+// Refines disparities that are right to a pixel to a small fraction of one.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,12 @@
 
 namespace relievo {
 
-// Least squares on the brightness around each pixel (Lucas and Kanade 1981), along the row alone; before it and after
-// each round the mean of what is near and on the same surface, so that a slope has no terraces. Keeps its memory.
+// Least squares on the brightness around each pixel (Lucas and Kanade 1981), only along the row. Before it and after
+// each round, each disparity becomes the mean of its neighbours on the same surface, so that a slope has no terraces.
+// Keeps its memory.
 class SubPixel {
  public:
-  // The map is as large as the views. Pixels that were not seen, and those without texture, keep their disparity.
+  // The map must be as large as the views. Pixels that were not seen, and those without texture, keep their disparity.
   void refine(DisparityMap& map, const ViewPicture& left, const ViewPicture& right);
 
  private:
