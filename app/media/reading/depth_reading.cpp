@@ -167,7 +167,8 @@ DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, co
   const std::string* const unit = said.find("unit");
   const std::string* const invalid = said.find("invalid");
   const CodeSet holes = invalid != nullptr ? CodeSet::parse(*invalid).value_or(CodeSet()) : CodeSet();
-  if (kind != nullptr && kind->name == std::string_view("heights") && !says(said, {"codes"})) {
+  const bool heights = kind != nullptr && (kind->name == std::string_view("heights") || isTerrain(kind->order));
+  if (heights && !says(said, {"codes"})) {
     return readHeights(count, holes);
   }
   if (kind != nullptr && kind->inverse.mm > 0 && !says(said, {"codes", "near", "far"})) {
@@ -192,6 +193,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   }
   if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
     const auto ordered = inOrder(depth, packed);
+    if (isTerrain(packed)) return findKind(packed == SampleOrder::Terrarium ? "terrarium" : "mapbox");
     const bool distances = ordered && isDistances(CodeCount(*ordered));
     if (packed == SampleOrder::FloatBytes) return findKind("tartanair");
     if (packed == SampleOrder::BlueGreen) return findKind("carla");
@@ -237,7 +239,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
-  reading.offer = both(both(otherUnit(*kind, count), otherEnd(count)), kAnyUnit);
+  if (!isTerrain(kind->order)) reading.offer = both(both(otherUnit(*kind, count), otherEnd(count)), kAnyUnit);
   reading.settings.merge(with.pictures);
   return reading;
 }

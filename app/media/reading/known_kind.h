@@ -22,6 +22,8 @@ enum class SampleOrder : std::uint8_t {
   GreenRed,      // likewise, the other way round
   BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
   EqualColors,   // of RGB of more than 8 bits: each component is the code
+  Terrarium,     // of RGB in 8 bits: a height of R 256 + G + B / 256 - 32768 m
+  Mapbox,        // likewise, of (R 65536 + G 256 + B) / 10 - 10000 m
   FloatBytes,    // of RGBA in 8 bits: a float in metres, its bytes in blue, green, red and alpha; 250 codes a metre
   Low13,         // Android's DEPTH16: three bits of confidence above
   Upper13        // Kinect SDK 1: three bits of a player's number below
@@ -32,6 +34,11 @@ struct InverseCodes {
   double mm = 0;  // 0: the codes are not inverse
   double offset = 0;
 };
+
+// Heights of terrain, in codes of .3125 m from 11000 m below the sea on; 0 is a hole.
+constexpr bool isTerrain(SampleOrder order) noexcept {
+  return order == SampleOrder::Terrarium || order == SampleOrder::Mapbox;
+}
 
 struct KnownKind {
   const char* name;  // of --as

@@ -34,7 +34,7 @@ bool isPackable(const Frame& frame) noexcept {
 }
 bool isPackedOrder(SampleOrder order) noexcept {
   return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::BlueGreen ||
-         order == SampleOrder::FloatBytes;
+         order == SampleOrder::FloatBytes || isTerrain(order);
 }
 
 std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
@@ -101,6 +101,38 @@ bool holdsFloats(const Frame& frame) noexcept {
   return 10 * sound >= 9 * samples && 10 * alike >= 8 * samples;
 }
 
+std::uint32_t terrainAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
+  constexpr double kLowest = -11000, kCodesAMetre = 3.2;
+  const std::uint32_t number = partAt(frame, 0, c, r) << 16 | partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
+  if (number == 0) return 0;
+  const double metres = order == SampleOrder::Terrarium ? number / 256.0 - 32768 : number / 10.0 - 10000;
+  return static_cast<std::uint32_t>(std::clamp(std::round((metres - kLowest) * kCodesAMetre), 1.0, double{kTop}));
+}
+
+// The upper byte of a height changes every 256 m (Terrarium: 128 at the sea) or 6554 m (Mapbox: 1 at the sea), the next
+// one from sample to sample. No picture of shades or hues has so few values of red beside so many of green.
+SampleOrder terrainOrder(const Frame& frame) noexcept {
+  constexpr std::uint32_t kDeepest = 85, kHighest = 163, kHighestOfMapbox = 2;
+  constexpr int kMostRed = 24, kLeastGreen = 4;
+  std::array<bool, 256> red{}, green{};
+  std::uint64_t samples = 0, low = 0, terrarium = 0, mapbox = 0;
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 0; c < frame.width; ++c) {
+      const std::uint32_t top = partAt(frame, 0, c, r) & 0xff, next = partAt(frame, 1, c, r) & 0xff;
+      if (top == 0 && next == 0 && partAt(frame, 2, c, r) == 0) continue;  // no data
+      ++samples;
+      red[top] = green[next] = true;
+      low += top == 0 ? 1 : 0;
+      terrarium += top >= kDeepest && top <= kHighest ? 1 : 0;
+      mapbox += top <= kHighestOfMapbox ? 1 : 0;
+    }
+  }
+  const auto reds = std::count(red.begin(), red.end(), true), greens = std::count(green.begin(), green.end(), true);
+  if (reds > kMostRed || greens < kLeastGreen) return SampleOrder::AsStored;
+  if (mapbox == samples && 2 * low < samples) return carries(frame, 1, 2) ? SampleOrder::Mapbox : SampleOrder::AsStored;
+  return terrarium == samples && (reds <= 2 || carries(frame, 0, 1)) ? SampleOrder::Terrarium : SampleOrder::AsStored;
+}
+
 // Beyond what 16 bits hold is the sky: 65535.
 std::uint32_t codeOf(float metres) noexcept {
   constexpr float kCodesAMetre = 250;
@@ -111,6 +143,7 @@ std::uint32_t codeOf(float metres) noexcept {
 
 std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
   if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
+  if (isTerrain(order)) return terrainAt(frame, c, r, order);
   if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
   const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);
   if (order == SampleOrder::BlueGreen) return partAt(frame, 2, c, r) << 8 | green;
@@ -158,6 +191,7 @@ bool hasConfidence(const Frame& depth) {
 SampleOrder packedOrder(const Frame& depth) {
   if (!isPackable(depth)) return SampleOrder::AsStored;
   if (holdsFloats(depth)) return SampleOrder::FloatBytes;
+  if (const SampleOrder terrain = terrainOrder(depth); terrain != SampleOrder::AsStored) return terrain;
   std::uint64_t other_blue = 0;
   const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
   for (int r = 0; r < depth.height; ++r) {

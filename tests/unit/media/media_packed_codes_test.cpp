@@ -71,6 +71,44 @@ TEST(PackedCodes, CarlasThreeBytesAreAKilometre) {
   expectScene(film, 10, {.mm = 16});  // a code is 15.26 mm
 }
 
+// Tiles of terrain by their makers' formulas: a slope from 260 m below the sea to 1150 m above it.
+struct Tile {
+  const char* kind;
+  double codes_a_metre, base;
+};
+constexpr Tile kTiles[] = {{"terrarium", 256, 32768}, {"mapbox", 10, 10000}};
+
+double terrainMetres(int c, int r) {
+  return -260 + 7.3 * c + 2.37 * r;
+}
+ClipTrack tileOf(const Tile& tile) {
+  return pictures([=](int k, int c, int r) -> std::uint32_t {
+    if (c == 0) return 0;  // no data
+    return static_cast<std::uint32_t>((terrainMetres(c, r) + tile.base) * tile.codes_a_metre) >> (16 - 8 * k) & 0xff;
+  });
+}
+
+TEST(PackedCodes, TilesOfTerrainAreHeights) {
+  for (const Tile& tile : kTiles) {
+    for (const bool stated : {false, true}) {
+      TemporaryFolder folder;
+      makeClip(folder / "a.png", {tileOf(tile)});
+      const OpenedFilm film = openFilm({.url = folder / "a.png", .as = stated ? findKind(tile.kind) : nullptr});
+      ASSERT_FALSE(film.pair.depth.empty());
+      const double low = film.heightAt(1, 0), high = film.heightAt(test::kSceneCols - 1, test::kSceneRows - 1);
+      ASSERT_GT(high, low + 0.5);
+      const double bottom = terrainMetres(1, 0), top = terrainMetres(test::kSceneCols - 1, test::kSceneRows - 1);
+      EXPECT_TRUE(std::isnan(film.heightAt(0, 5))) << tile.kind;
+      for (int r = 0; r < test::kSceneRows; ++r) {
+        for (int c = 1; c < test::kSceneCols; ++c) {
+          const double metres = bottom + (film.heightAt(c, r) - low) / (high - low) * (top - bottom);
+          ASSERT_NEAR(metres, terrainMetres(c, r), 0.5) << tile.kind << ", " << c << ", " << r;
+        }
+      }
+    }
+  }
+}
+
 // Android's DEPTH16: the confidence stands in the upper three bits.
 TEST(PackedCodes, ConfidenceAboveTheDistanceIsLeftOut) {
   for (const bool with : {true, false}) {
