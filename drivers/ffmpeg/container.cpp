@@ -225,7 +225,6 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   StreamInfo info;
   info.index = stream.index;
   info.kind = kindOf(stream);
-  info.codec = avcodec_get_name(parameters.codec_id);
   if (parameters.extradata_size > 0) {
     info.extradata.assign(parameters.extradata, parameters.extradata + parameters.extradata_size);
   }
@@ -257,6 +256,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   }
   if (parameters.codec_tag == kGray16Big) becomeGray16(*native->parameters, AV_PIX_FMT_GRAY16BE);
   if (parameters.codec_tag == kGray16Little) becomeGray16(*native->parameters, AV_PIX_FMT_GRAY16LE);
+  info.codec = avcodec_get_name(native->parameters->codec_id);
   native->time_base = stream.time_base;
   native->sample_aspect = stream.sample_aspect_ratio;
   info.native = std::shared_ptr<NativeStream>(native.release(), NativeStreamDeleter{});

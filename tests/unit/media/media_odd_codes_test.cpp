@@ -89,7 +89,9 @@ TEST(OddCodes, SixteenBitsOfRawAviAreGray) {
     file.seekp(static_cast<std::streamoff>(at)).write("Y16 ", 4);
   }
   file.close();
-  expectScene(openFilm({.url = path}), 1, {.mm = 0.51});
+  const OpenedFilm film = openFilm({.url = path});
+  EXPECT_EQ(film.info.color_codec, "rawvideo");
+  expectScene(film, 1, {.mm = 0.51});
 }
 
 // TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; its sky lies at 10 km.
