@@ -117,8 +117,10 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   auto found = findPacking(look);
   if (!found) {
     lookForViews(look);
-    if (info.packing == Packing::Tracks && lookAt(look).gray >= kAllGray) {
-      info.notes.emplace_back("the picture is gray; if it is depth: --packing depth-alone");
+    const PictureLook seen = lookAt(look);
+    const char* const like = seen.gray >= kAllGray ? "gray" : isHue(seen) ? "of pure colours" : nullptr;
+    if (info.packing == Packing::Tracks && like != nullptr) {
+      info.notes.push_back(print("the picture is %s; if it is depth: --packing depth-alone", like));
     }
     return;
   }

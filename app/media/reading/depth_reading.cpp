@@ -139,6 +139,15 @@ std::string both(const std::string& first, const std::string& second) {
   return first + (first.empty() || second.empty() ? "" : "; ") + second;
 }
 
+// Disparities have holes as distances have, and are as high as those of 5000 codes a metre or as scattered as a
+// laser's.
+std::string otherLaw(const KnownKind& kind, const CodeCount& count) {
+  const bool high =
+      count.quantile(0.5, 1, kTop - 1) > kMiddleMm || count.quantile(1 - kOutliers, 1, kTop - 1) > kFarthestMm;
+  if (!high && kind.name != std::string_view("kitti")) return "";
+  return "if they are disparities, 256 codes a pixel: --as kitti-disparity";
+}
+
 // What else distances may be. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
@@ -152,6 +161,12 @@ std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
     return *zoedepth != '\0' ? zoedepth : "if there are 256 codes a metre: --as kitti";
   if (kind.name == std::string_view("mm")) return zoedepth;
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
+}
+
+// What else codes may be whose kind only the pictures show.
+std::string otherKinds(const KnownKind& kind, const CodeCount& count) {
+  if (kind.inverse.mm > 0 || isTerrain(kind.order)) return "";
+  return both(both(otherUnit(kind, count), otherLaw(kind, count)), both(otherEnd(count), kAnyUnit));
 }
 
 // Folders that look like TUM's are made by other recorders too.
@@ -239,7 +254,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
-  if (!isTerrain(kind->order)) reading.offer = both(both(otherUnit(*kind, count), otherEnd(count)), kAnyUnit);
+  reading.offer = otherKinds(*kind, count);
   reading.settings.merge(with.pictures);
   return reading;
 }

@@ -85,10 +85,15 @@ DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const K
   const bool record3d = kind != nullptr && kind->name == std::string_view("record3d");
   const bool apart = static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && 10 * beside < red;
   DepthReading reading;
-  if (kind == nullptr && said.find("polarity") == nullptr) {
+  const bool unknown = kind == nullptr && said.find("polarity") == nullptr;
+  if (unknown) {
     reading.offer =
         "near is taken to be the red end of the hues, as RealSense and Depthkit have it; if it is far: "
-        "--calibration polarity=near-high";
+        "--calibration polarity=near-high; if hues are of 1/distance, red far: --as realsense-disparity";
+  }
+  const bool realsense = kind != nullptr && std::string_view(kind->name).starts_with("realsense");
+  if ((unknown || realsense) && !says(said, {"near", "far"})) {
+    reading.offer += print("%sif the distances are known: --calibration near=MM,far=MM", unknown ? "; " : "");
   }
   if (count.lit == red || (!record3d && !apart) || said.find("invalid") != nullptr) return reading;
   reading.settings["invalid"] = print("0-%d+%d-%d", kRed, kSteps - kRed, kSteps);

@@ -27,6 +27,7 @@ using test::hueColor;
 using test::makeClip;
 using test::makeGrayFrame;
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::AnyOf;
 using testing::Contains;
 using testing::HasSubstr;
@@ -138,6 +139,43 @@ TEST(DepthReading, DistancesWithoutAHoleMayHave256CodesAMetre) {
   EXPECT_THAT(offer(400), HasSubstr("if there are 256 codes a metre: --as zoedepth"));
   EXPECT_THAT(offer(6000), HasSubstr("--as zoedepth"));
   EXPECT_THAT(offer(0), Not(HasSubstr("zoedepth")));
+}
+
+// Holes tell a sensor from a network, not distances from disparities.
+TEST(DepthReading, HighCodesMayBeDisparities) {
+  const auto offer = [](double times) {
+    const Frame f = picture(0, [=](double z) { return times * z; });
+    return readCodes(f, CodeCount(f), {}).offer;
+  };
+  EXPECT_THAT(offer(5), HasSubstr("--as kitti-disparity"));
+  EXPECT_THAT(offer(1), Not(HasSubstr("disparit")));
+}
+
+// Which distances the ends of the hues stand for no picture says, nor whether hues are even in 1/distance.
+TEST(DepthReading, HuesOfUnknownMeaningSayTheWords) {
+  TemporaryFolder folder;
+  ClipTrack hues{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1};
+  hues.sample = [](int k, int c, int r, int) {
+    const double mm = distanceMm(c, r), part = hueColor(0.1 + 0.35 * mm / 1000).at(static_cast<std::size_t>(k));
+    return static_cast<std::uint32_t>(mm == 0 ? 0 : std::lround(255 * part));
+  };
+  makeClip(folder / "a.png", {hues});
+  const auto opened = [&](SourceOptions options) {
+    options.url = folder / "a.png";
+    PairReader reader(kFfmpeg);
+    EXPECT_TRUE(reader.open(options));
+    return reader.info();
+  };
+  const auto offers = [&](const SourceOptions& options) { return opened(options).reading.offers; };
+  EXPECT_THAT(opened({}).notes, Contains(HasSubstr("--packing depth-alone")));
+  EXPECT_THAT(offers({.packing = Packing::DepthAlone}),
+              Contains(AllOf(HasSubstr("polarity=near-high"), HasSubstr("--as realsense-disparity"),
+                             HasSubstr("near=MM,far=MM"))));
+  const KnownKind* const kind = findKind("realsense-disparity");
+  EXPECT_THAT(offers({.packing = Packing::DepthAlone, .as = kind}),
+              Contains(AllOf(HasSubstr("near=MM,far=MM"), Not(HasSubstr("polarity")))));
+  EXPECT_THAT(offers({.packing = Packing::DepthAlone, .as = kind, .command_line = {{"near", "600"}, {"far", "2400"}}}),
+              IsEmpty());
 }
 
 TEST(DepthReading, WhatIsStretchedOverItsBitsIsLeftAsItIs) {
