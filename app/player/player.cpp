@@ -131,7 +131,8 @@ void Player::step(MonotonicTime now) {
   readRemote(now);
   followDevice();
   film_.noteNews();
-  followReader(now);
+  followReader(now);  // may show a picture
+  followPrograms(now);
   followClock(now);
   followLoopAB(now);
   while (auto subtitle = film_.takeSubtitle()) screen_.subtitles().add(std::move(*subtitle));
@@ -143,6 +144,12 @@ void Player::step(MonotonicTime now) {
   followBrowser(now);
   followFault(now);
   tellStatus(now);
+  followPrograms(now);
+}
+
+// Between any two pictures shown, so that no answer waits for more than one refresh of the screen. What a program asks
+// for shows nothing itself.
+void Player::followPrograms(MonotonicTime now) {
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
 }
 

@@ -107,6 +107,7 @@ class Player {
   void failDrawing(const Error& error);
   void boot();
   void step(MonotonicTime now);
+  void followPrograms(MonotonicTime now);
   [[nodiscard]] bool alive() const noexcept;
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
   void finish(MonotonicTime now);
@@ -139,6 +140,7 @@ class Player {
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
+  void redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now);
   void feedTouch();
   [[nodiscard]] FingerMarks marks();
 

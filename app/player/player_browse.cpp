@@ -58,7 +58,7 @@ void Player::openBrowser(MonotonicTime now) {
   screen_.announce({});
   screen_.text().setList(browser_->view());
   screen_.write(facts(), MonotonicTime::max(), now);
-  if (auto cleared = screen_.clear(touch_.marks(), now); !cleared) failDrawing(cleared.error());
+  screen_.clear();
 }
 
 void Player::closeBrowser() {
@@ -79,7 +79,6 @@ void Player::followBrowser(MonotonicTime now) {
   if (mouse_.takeChoice()) return chooseFilm(now);
   browser_->warn(screen_.text().showsWarning(now));
   if (browser_->attend(now)) screen_.text().setList(browser_->view());
-  if (auto drawn = screen_.redraw(touch_.marks(), MonotonicTime::max(), now); !drawn) failDrawing(drawn.error());
 }
 
 void Player::chooseFilm(MonotonicTime now) {

@@ -51,9 +51,7 @@ void Player::stepOn(MonotonicTime now) {
   if (!film_.held()) {
     if (auto paused = film_.pause(now); !paused) return failFilm("the film's clock", paused.error());
   }
-  if (!film_.stepOn(now)) return;
-  feedTouch();
-  showPicture(now);
+  film_.stepOn(now);
 }
 
 void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
@@ -164,16 +162,15 @@ void Player::announce(const DisplayVolume& volume) {
 }
 
 void Player::followClock(MonotonicTime now) {
+  if (state_ == PlayerState::Idle || state_ == PlayerState::Browsing)
+    return redraw(touch_.marks(), MonotonicTime::max(), now);
   if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
   const std::size_t pictures = film_.advance(now);
   feedTouch();
   const bool shows = pictures > 0 && film_.hasNewPicture();
   if (pictures > 0) screen_.skip(shows ? pictures - 1 : pictures);
-  if (shows) {
-    showPicture(now);
-  } else if (auto drawn = screen_.redraw(marks(), film_.nextPicture(now), now); !drawn) {
-    failDrawing(drawn.error());
-  }
+  if (shows) showPicture(now);
+  else redraw(marks(), film_.nextPicture(now), now);
   if (state_ == PlayerState::Playing) followProgress(film_.going(now), now);
 }
 
@@ -189,6 +186,10 @@ void Player::showPicture(MonotonicTime now) {
   const auto seen = screen_.show(film_.picture(), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
+}
+
+void Player::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {
+  if (auto drawn = screen_.redraw(fingers, next_picture, now); !drawn) failDrawing(drawn.error());
 }
 
 // The fingers, as far as there is something to feel.

@@ -58,8 +58,7 @@ void Player::stopFilm(MonotonicTime now) {
   closeBrowser();
   apply(PlayerEvent::Stop);
   if (had_film && returnsToBrowser()) return openBrowser(now);
-  if (!config_.stays) return;
-  if (auto cleared = screen_.clear(touch_.marks(), now); !cleared) failDrawing(cleared.error());
+  if (config_.stays) screen_.clear();
 }
 
 void Player::endFilm(MonotonicTime now) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -174,6 +175,29 @@ TEST_F(PlayerAndPrograms, FaultsGoInAndComeOutAsEvents) {
   EXPECT_EQ(faults[0]["what"], "haptic device lost");
   EXPECT_THAT(faults[0]["done"].get<std::string>(), HasSubstr("zero force"));
   EXPECT_EQ(bench_.hand->force(), glm::dvec3(0));
+}
+
+// A program that speaks while a picture is being shown waits for no second one, whatever others ask for meanwhile.
+TEST_F(PlayerAndPrograms, AnAnswerWaitsForOneRefreshAtMost) {
+  bench_.config.stays = true;
+  int asked = 0;
+  bool silent = false;
+  std::vector<int> late;  // pictures that were shown while the one before them had brought no answer
+  std::optional<ControlClient> other;
+  bench_.display.shown = [&] {
+    if (!other) return void(other.emplace(folder_ / "control"));  // let in by the next one
+    while (auto line = other->next(kNow)) silent = silent && !line->contains("ok");
+    if (silent) late.push_back(asked);
+    static constexpr std::array kWords{"step",   "step",      "info", "swap-eyes", "play",
+                                       "seek 5", "swap-eyes", "step", "stop",      "open film"};
+    first_->say(kWords[static_cast<std::size_t>(asked) % kWords.size()]);
+    other->say("status");
+    silent = true;
+    if (++asked == 40) first_->say("quit");
+  };
+  play();
+  EXPECT_GE(asked, 40);
+  EXPECT_THAT(late, testing::IsEmpty());
 }
 
 TEST_F(PlayerAndPrograms, EveryWordIsHeard) {

@@ -28,7 +28,7 @@ class PlayerControl {
   PlayerControl(std::unique_ptr<ControlSocket> socket, FaultSwitch switchFault)
       : socket_(std::move(socket)), switchFault_(std::move(switchFault)) {}
 
-  // Call once a round of the player's loop: carries out the programs' requests.
+  // Call at least once a round of the player's loop: carries out the programs' requests.
   void attend(Player& player, MonotonicTime now);
 
   void ready() noexcept { service_.ready(); }

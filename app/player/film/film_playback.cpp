@@ -66,6 +66,7 @@ void FilmPlayback::close(MonotonicTime now) {
   held_ = begun_ = starved_ = false;
   decode_pace_ = {};
   leaves_out_ = false;
+  stepped_ = 0;
   jumped_ = true;
   target_.reset();
   dry_since_.reset();
@@ -134,12 +135,13 @@ Result<void> FilmPlayback::start(MonotonicTime now) {
 }
 
 std::size_t FilmPlayback::advance(MonotonicTime now) {
-  if (isLive()) return advanceLive(now);
+  const std::size_t stepped = std::exchange(stepped_, 0);
+  if (isLive()) return stepped + advanceLive(now);
   followReliefs();
   const std::size_t pictures = head_.advance(clock_.position(now).value_or(MediaTime{}), feed_);
   if (pictures > 0) reliefs_.passed(picture().color.pts);
   followDecoder(now);
-  return pictures;
+  return stepped + pictures;
 }
 
 // A pair that is less than a period late is shown late; after that the film waits for its source. The delay counts from
@@ -199,12 +201,12 @@ Result<void> FilmPlayback::resume(MonotonicTime now) {
   return resumed;
 }
 
-bool FilmPlayback::stepOn(MonotonicTime now) {
+void FilmPlayback::stepOn(MonotonicTime now) {
   head_.refill(feed_);
-  if (head_.ahead().empty()) return false;
+  if (head_.ahead().empty()) return;
   head_.begin();
+  ++stepped_;
   clock_.start(picture().color.pts, now);  // stays paused
-  return true;
 }
 
 void FilmPlayback::setRate(double rate, MonotonicTime now) {

@@ -74,7 +74,7 @@ class FilmPlayback {
   bool takeFirst();
   // Starts the clock at the present picture, which is on the screen; paused if the film is held.
   [[nodiscard]] Result<void> start(MonotonicTime now);
-  // Makes the picture of this time the present one; returns how many pictures it moved on.
+  // Makes the picture of this time the present one; returns how many pictures it moved on, with those stepped on to.
   [[nodiscard]] std::size_t advance(MonotonicTime now);
   [[nodiscard]] Progress going(MonotonicTime now);
 
@@ -89,8 +89,8 @@ class FilmPlayback {
   // Pause and resume at once; after `start`.
   [[nodiscard]] Result<void> pause(MonotonicTime now);
   [[nodiscard]] Result<void> resume(MonotonicTime now);
-  // While paused: makes the next picture the present one. False if there is none or it is not buffered yet.
-  [[nodiscard]] bool stepOn(MonotonicTime now);
+  // While paused: makes the next picture the present one, if it is buffered. `advance` counts it.
+  void stepOn(MonotonicTime now);
   void setRate(double rate, MonotonicTime now);
   [[nodiscard]] double rate() const noexcept { return rate_; }
   [[nodiscard]] bool rushes() const noexcept { return rate_ > 1; }
@@ -191,6 +191,7 @@ class FilmPlayback {
   bool jumped_ = true;
   std::optional<MediaTime> target_;         // of a seek whose first picture has not been shown yet
   std::optional<MonotonicTime> dry_since_;  // since when no picture is buffered
+  std::size_t stepped_ = 0;                 // pictures that were stepped to since `advance`
   bool starved_ = false;                    // the picture has stopped while the clock runs on
   std::uint64_t shown_color_ = 0;           // Playhead::colors, of the picture on the screen
   DecodePace decode_pace_;

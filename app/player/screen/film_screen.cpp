@@ -84,10 +84,9 @@ Result<void> FilmScreen::redraw(const FingerMarks& fingers, MonotonicTime next_p
   return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
 
-Result<void> FilmScreen::clear(const FingerMarks& fingers, MonotonicTime now) {
+void FilmScreen::clear() noexcept {
   picture_.clear();
-  const auto drawn = draw(fingers, now);
-  return drawn ? Result<void>{} : std::unexpected(drawn.error());
+  redraw_ = true;
 }
 
 // False if the screen is lost.

@@ -62,8 +62,8 @@ class FilmScreen {
   // Between two pictures of the film: draws the present one again if a finger or the text has changed and there is time
   // until `next_picture`.
   [[nodiscard]] Result<void> redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now);
-  // Draws a black picture: there is no film.
-  [[nodiscard]] Result<void> clear(const FingerMarks& fingers, MonotonicTime now);
+  // For when there is no film: the next redraw draws a black picture.
+  void clear() noexcept;
   // Updates the text over the picture, from the first picture on, and the list of films.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
   // True if the viewer has asked for the statistics.
