@@ -150,7 +150,8 @@ const KeyTable::Binding* KeyTable::row(std::size_t table, std::uint16_t code) co
 
 const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) const noexcept {
   const std::uint16_t alone = withoutShiftAndCtrl(code);
-  for (const std::uint16_t known : {code, alone, twinOf(alone)}) {
+  const auto without_shift = static_cast<std::uint16_t>(code & ~kWithShift);  // Ctrl and + is Ctrl, Shift and =
+  for (const std::uint16_t known : {code, without_shift, alone, twinOf(alone)}) {
     for (const std::size_t table : {static_cast<std::size_t>(state), kAlways}) {
       if (const Binding* binding = row(table, known)) return binding->press || binding->hold ? binding : nullptr;
     }

@@ -52,6 +52,28 @@ TEST_F(KeyReaderTest, ShiftAndCtrlMakeAnotherKeyWhereTheTableHasIt) {
   EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 990), "volume +5");
 }
 
+// As mpv's input.conf: there Z, W, P and L are not z, w, p and l, and the arrows take small steps.
+TEST_F(KeyReaderTest, KeysWithShiftAreMpvs) {
+  EXPECT_EQ(take(KEY_RIGHTSHIFT, Action::Press, 0), "-");
+  EXPECT_EQ(take(KEY_Z, Action::Press, 10), "subtitle-delay +0.1");
+  EXPECT_EQ(take(KEY_W, Action::Press, 20), "zoom +0.1");
+  EXPECT_EQ(take(KEY_P, Action::Press, 30), "info");
+  EXPECT_EQ(take(KEY_L, Action::Press, 40), "loop");
+  EXPECT_EQ(take(KEY_RIGHT, Action::Press, 50), "seek +1");
+  EXPECT_EQ(take(KEY_LEFT, Action::Press, 60), "seek -1");
+  EXPECT_EQ(take(KEY_UP, Action::Press, 70), "seek +5");
+  EXPECT_EQ(take(KEY_DOWN, Action::Press, 80), "seek -5");
+  EXPECT_EQ(take(KEY_PAGEUP, Action::Press, 90), "seek +600");
+  EXPECT_EQ(take(KEY_PAGEDOWN, Action::Press, 100), "seek -600");
+}
+
+// On most keyboards + is on = with Shift.
+TEST_F(KeyReaderTest, CtrlAndShiftAreCtrlWhereTheTableHasNoRowForBoth) {
+  EXPECT_EQ(take(KEY_LEFTCTRL, Action::Press, 0), "-");
+  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Press, 10), "-");
+  EXPECT_EQ(take(KEY_EQUAL, Action::Press, 20), "audio-delay +0.1");
+}
+
 TEST_F(KeyReaderTest, AKeyWithTwoMeaningsIsObeyedWhenItIsLetGoOf) {
   EXPECT_EQ(take(KEY_OK, Action::Press, 0), "-");
   EXPECT_EQ(held(599), "-");

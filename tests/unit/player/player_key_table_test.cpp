@@ -206,7 +206,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 113);
+  EXPECT_EQ(names, 123);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
