@@ -118,6 +118,7 @@ class Player {
   void readRemote(MonotonicTime now);
   [[nodiscard]] bool hearMouse(const SurfaceMouse& mouse);
   void followMouse(MonotonicTime now);
+  void obeyKey(const PlayerCommand& command, std::uint16_t code, MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
   [[nodiscard]] ScreenRows keyRows() const;
 

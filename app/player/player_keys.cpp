@@ -18,6 +18,13 @@ bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept 
   return state == PlayerState::Browsing && needsFilm(command.verb);
 }
 
+// Pages of keys that a key turns by; 0: it is none of these.
+int pagesBy(std::uint16_t code) noexcept {
+  constexpr std::array<std::uint16_t, 3> kOn{KEY_DOWN, KEY_RIGHT, KEY_PAGEDOWN}, kBack{KEY_UP, KEY_LEFT, KEY_PAGEUP};
+  if (std::ranges::find(kOn, code) != kOn.end()) return 1;
+  return std::ranges::find(kBack, code) != kBack.end() ? -1 : 0;
+}
+
 }  // namespace
 
 void Player::readRemote(MonotonicTime now) {
@@ -31,14 +38,28 @@ void Player::readRemote(MonotonicTime now) {
     }
     if (!*key) break;
     const auto command = keys_.take(**key, state_);
-    if (command && !isForAnotherTime(*command, state_)) obey(*command, now);
+    if (command && !isForAnotherTime(*command, state_)) obeyKey(*command, (*key)->code, now);
     else noteUnbound(**key, now);
   }
-  if (const auto command = keys_.held(now)) obey(*command, now);
+  if (const auto command = keys_.held(now)) obeyKey(*command, 0, now);
+}
+
+// Nobody sees what a key does beneath the page of keys: there it turns the pages, or closes them. The volume is heard.
+void Player::obeyKey(const PlayerCommand& command, std::uint16_t code, MonotonicTime now) {
+  constexpr std::array kObeyed{PlayerVerb::Keys, PlayerVerb::VolumeBy, PlayerVerb::VolumeTo, PlayerVerb::Mute};
+  ScreenText& text = screen_.text();
+  if (!text.showsKeys() || std::ranges::find(kObeyed, command.verb) != kObeyed.end()) return obey(command, now);
+  if (const int pages = pagesBy(code); pages != 0) return text.turnPage(pages);
+  text.hideKeys();
 }
 
 // Within the display's `attend`.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
+  if (screen_.text().showsKeys()) {
+    screen_.text().turnPage(-mouse.notches);
+    if (mouse.pressed) screen_.text().hideKeys();
+    return true;
+  }
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
   if (mouse.notches != 0) {
     if (!config_.mouse_touches) mouse_.turn(mouse.notches);
@@ -64,7 +85,9 @@ void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
   if (key.action != KeyEvent::Action::Press) return;
   const KeyTable::Binding* const binding = config_.keys.find(state_, key.code);
   if (binding != nullptr && (!binding->press || !isForAnotherTime(*binding->press, state_))) return;
-  if (std::ranges::find(kSilent, key.code) != kSilent.end() || !unbound_.insert(key.code).second) return;
+  if (std::ranges::find(kSilent, key.code) != kSilent.end()) return;
+  if (screen_.text().showsKeys()) return screen_.text().hideKeys();
+  if (!unbound_.insert(key.code).second) return;
   const std::string label = keyLabel(key.code, config_.held);
   screen_.text().notice({(label.empty() ? "This key" : label) + " has no meaning here", std::nullopt}, now);
 }

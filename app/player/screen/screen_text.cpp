@@ -71,6 +71,13 @@ void ScreenText::turnKeys(ScreenRows keys, std::size_t pages) {
   keys_page_ = goes_on ? keys_page_ + 1 : 0;
   if (showsKeys() && !goes_on) return hideKeys();
   keys_ = std::move(keys);
+  keys_pages_ = pages;
+}
+
+void ScreenText::turnPage(int by) noexcept {
+  const auto last = static_cast<std::ptrdiff_t>(keys_pages_) - 1;
+  const auto wished = static_cast<std::ptrdiff_t>(keys_page_) + by;
+  keys_page_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wished, 0, std::max<std::ptrdiff_t>(last, 0)));
 }
 
 void ScreenText::tell(std::string why, MonotonicTime now) {

@@ -76,6 +76,8 @@ class ScreenText {
   void toggleStatistics() noexcept { statistics_ = !statistics_; }
   // Shows these keys, then their further pages, then hides them.
   void turnKeys(ScreenRows keys, std::size_t pages);
+  // To another of these pages, no further than the first and the last.
+  void turnPage(int by) noexcept;
   void hideKeys() noexcept { keys_.clear(); }
   void setHelpKey(std::string label) { help_key_ = std::move(label); }
   [[nodiscard]] bool showsKeys() const noexcept { return !keys_.empty(); }
@@ -104,7 +106,7 @@ class ScreenText {
 
   bool bar_ = false, statistics_ = false;
   ScreenRows keys_;
-  std::size_t keys_page_ = 0;
+  std::size_t keys_page_ = 0, keys_pages_ = 0;
   std::string help_key_;
   MonotonicTime awake_until_;
   std::string why_, hint_;

@@ -42,6 +42,28 @@ TEST_F(PlayerTransport, FullScreenIsTheWindowsAndEscapeLeavesTheFilmPlaying) {
   EXPECT_EQ(bench_.report.frames_shown, 100u);
 }
 
+// The page covers the picture: what a key does beneath it, nobody would see. Arrows turn it, any other key closes it.
+TEST_F(PlayerTransport, AKeyPressedOverThePageOfKeysLeavesTheFilmAsItIs) {
+  std::vector<FullScreen> wishes;
+  bench_.display.filled = [&](FullScreen wish) { wishes.push_back(wish); };
+  double at_s = 0.2;
+  for (const int closing : {KEY_SPACE, KEY_OK, KEY_F, KEY_Q, KEY_T}) {
+    bench_.press(at_s, KEY_H);
+    bench_.press(at_s + 0.1, KEY_RIGHT);
+    bench_.press(at_s + 0.2, KEY_UP);
+    bench_.press(at_s + 0.3, static_cast<std::uint16_t>(closing));
+    at_s += 0.5;
+  }
+  bench_.press(at_s, KEY_F);
+  bench_.press(at_s + 0.2, KEY_PAUSE);
+  bench_.press(at_s + 0.4, KEY_Q);
+  playsWell();
+  EXPECT_THAT(wishes, SizeIs(1)) << "of a key after the page";
+  EXPECT_THAT(bench_.states(), testing::EndsWith("playing paused idle"));
+  EXPECT_EQ(std::ranges::count(bench_.report.states, PlayerState::Paused), 1);
+  EXPECT_THAT(bench_.report.seeks, IsEmpty());
+}
+
 TEST_F(PlayerTransport, AStepBackShowsThePictureBeforeAndStands) {
   bench_.press(1.0, KEY_PAUSE);
   for (int i = 0; i < 3; ++i) bench_.press(2.0 + i, KEY_COMMA);

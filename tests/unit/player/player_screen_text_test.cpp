@@ -188,6 +188,10 @@ TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
   EXPECT_FALSE(text.showsKeys());
   text.turnKeys({{"SPACE", "pause"}}, 3);
   EXPECT_EQ(at(text, playing()).keys_page, 0u);
+  for (const auto& [by, page] : {std::pair{-1, 0u}, {1, 1u}, {1, 2u}, {1, 2u}, {-1, 1u}, {-5, 0u}, {0, 0u}}) {
+    text.turnPage(by);
+    EXPECT_EQ(at(text, playing()).keys_page, page);
+  }
   text.hideKeys();
   EXPECT_FALSE(text.showsKeys());
 }
