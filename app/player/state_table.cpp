@@ -60,6 +60,7 @@ constexpr std::array kTransitions{
     Transition{S::Paused, E::Open, S::Opening},
     Transition{S::Paused, E::Play, S::Playing},
     Transition{S::Paused, E::Step, S::Paused},
+    Transition{S::Paused, E::Rate, S::Paused},
     Transition{S::Paused, E::Seek, S::Seeking},
     Transition{S::Paused, E::Stop, S::Idle},
     Transition{S::Paused, E::Fail, S::Fault},

@@ -42,11 +42,11 @@ Deeds changeRate(double rate, const Situation& s) {
 }
 
 // While a film is being opened, buffered or sought, the command takes effect from the next picture on.
-Deeds play(Situation s) {
+Deeds goOnAt(double rate, Situation s) {
   if (s.state == PlayerState::Idle) return s.film_asked ? Deeds{open(s.film)} : Deeds{};
   Deeds deeds{{.kind = Deed::Kind::GoOn}};
   s.state = nextState(s.state, PlayerEvent::Play).value_or(s.state);
-  for (const Deed& deed : changeRate(1, s)) deeds.push_back(deed);
+  for (const Deed& deed : changeRate(rate, s)) deeds.push_back(deed);
   return deeds;
 }
 
@@ -54,6 +54,18 @@ Deeds pause(const Situation& s) {
   Deeds deeds = s.rate > 1 ? changeRate(1, s) : Deeds{};  // so that the paused picture can be touched
   deeds.push_back({.kind = Deed::Kind::Stand});
   return deeds;
+}
+
+// Slow motion goes on as it was paused.
+Deeds playOrPause(const Situation& s) {
+  if (s.held || s.state == PlayerState::Idle) return goOnAt(std::min(s.rate, 1.0), s);
+  return s.rate > 1 ? goOnAt(1, s) : pause(s);
+}
+
+// Key frames do not stand: from a pause the film goes on by them.
+Deeds faster(const Situation& s) {
+  const double rate = rateBeside(s.rate, 1);
+  return s.held && rate > 1 && s.length > Duration(0) ? goOnAt(rate, s) : changeRate(rate, s);
 }
 
 // A seek arrives at the first picture from its target on.
@@ -93,11 +105,11 @@ Deeds seekChapter(int by, const Situation& s) {
 std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
   switch (command.verb) {
     case PlayerVerb::Play:
-      return play(s);
+      return goOnAt(1, s);
     case PlayerVerb::Pause:
       return pause(s);
     case PlayerVerb::PlayPause:
-      return s.held || s.rate > 1 || s.state == PlayerState::Idle ? play(s) : pause(s);
+      return playOrPause(s);
     case PlayerVerb::Step:
       return s.rate > 1 ? pause(s) : Deeds{{.kind = Deed::Kind::StepOn}};
     case PlayerVerb::StepBack:
@@ -105,7 +117,7 @@ std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
     case PlayerVerb::NormalSpeed:
       return changeRate(1, s);
     case PlayerVerb::Faster:
-      return changeRate(rateBeside(s.rate, 1), s);
+      return faster(s);
     case PlayerVerb::Slower:
       return changeRate(rateBeside(s.rate, -1), s);
     case PlayerVerb::SeekBy:

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
     "..oB..oo.......IF",  // opening
     "..o.PuBB.BS..E.IF",  // buffering
     "..o....uuPS.BE.IF",  // playing
-    "..o...P.u.S....IF",  // paused
+    "..o...P.uuS....IF",  // paused
     "..o...SS.SSB...IF",  // seeking
     "..o...........SIF",  // ended
     "..o............I.",  // fault

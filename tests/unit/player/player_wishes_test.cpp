@@ -133,8 +133,23 @@ TEST(Wishes, PlayInSlowMotionGoesBackToTheUsualRate) {
   Situation s = playing();
   s.rate = 0.25;
   EXPECT_EQ(asked(PlayerVerb::Play, s), "go on, rate 1");
-  s.state = PlayerState::Paused;  // the rate cannot be changed there, but once it plays it can
+  s.state = PlayerState::Paused;
   EXPECT_EQ(asked(PlayerVerb::Play, s), "go on, rate 1");
+}
+
+TEST(Wishes, TheRateOfAPausedFilmIsChangedAndKeptWhenItGoesOn) {
+  Situation s = playing();
+  s.state = PlayerState::Paused;
+  s.held = true;
+  EXPECT_EQ(asked(PlayerVerb::Slower, s), "rate 0.5");
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "go on, rate 2, seek 20") << "key frames do not stand";
+  s.rate = 0.5;
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "rate 1");
+  EXPECT_EQ(asked(PlayerVerb::NormalSpeed, s), "rate 1");
+  EXPECT_EQ(asked(PlayerVerb::PlayPause, s), "go on");
+  s.rate = 1;
+  s.length = Duration(0);
+  EXPECT_EQ(asked(PlayerVerb::Faster, s), "note a live film has no fast forward");
 }
 
 TEST(Wishes, ALiveFilmGoesNoFasterThanItComes) {
