@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player tells: on the screen, in the terminal, to programs and in the report.
+#include <algorithm>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "app/player/player.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -31,6 +34,14 @@ FingerFacts fingerFacts(std::string device, const std::optional<FingerMark>& mar
   if (volume.width_mm > 0) facts.across = mark->position_mm.x / volume.width_mm;
   if (volume.height_mm > 0) facts.up = mark->position_mm.y / volume.height_mm;
   return facts;
+}
+
+std::string chapterWords(const std::vector<Chapter>& chapters, MediaTime here) {
+  if (chapters.empty()) return "";
+  const auto after = std::ranges::upper_bound(chapters, here, {}, [](const Chapter& c) { return MediaTime(c.begin); });
+  const auto number = std::max<std::ptrdiff_t>(after - chapters.begin(), 1);
+  const std::string& title = chapters[static_cast<std::size_t>(number) - 1].title;
+  return print("%td of %zu", number, chapters.size()) + (title.empty() ? "" : ", " + title);
 }
 
 std::optional<double> secondsOf(std::optional<MediaTime> time) {
@@ -106,6 +117,7 @@ ScreenFacts Player::facts() const {
           .sound_delay_s = toSeconds(film_.soundDelay()),
           .subtitle_delay_s = toSeconds(subtitle_delay_),
           .subtitle_size = screen_.subtitleSize(),
+          .chapter = chapterWords(film_.info().chapters, film_.goal(parts_.clock.now())),
           .aspect = screen_.aspectWord(),
           .full_screen = screen_.isFullScreen(),
           .loop_from_s = secondsOf(loop_ab_.from()),

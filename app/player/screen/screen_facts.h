@@ -38,7 +38,8 @@ struct ScreenFacts {
   bool muted = false;
   std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"
   double sound_delay_s = 0, subtitle_delay_s = 0, subtitle_size = 1;
-  std::string aspect;  // the shape's word
+  std::string chapter;  // where the film is, or is sought: "2 of 4, The Nose"; empty: it has none
+  std::string aspect;   // the shape's word
   bool full_screen = false;
   std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop
 };

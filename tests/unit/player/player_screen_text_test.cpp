@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/player/screen/notices.h"
+
 namespace relievo {
 namespace {
 
@@ -173,6 +175,14 @@ TEST(ScreenText, KeysAndStatisticsComeAndGo) {
   EXPECT_EQ(text.content(playing(), {{"tick", "1 kHz"}}, kStart).statistics.front().second, "1 kHz");
   text.toggleStatistics();
   EXPECT_TRUE(text.content(playing(), {{"tick", "1 kHz"}}, kStart).empty());
+}
+
+TEST(ScreenText, AKeyToAChapterTellsWhichItIs) {
+  ScreenFacts facts = playing();
+  const PlayerCommand command{PlayerVerb::ChapterBy, 1};
+  EXPECT_EQ(noticeOf(command, facts)->words, "This film has no chapters");
+  facts.chapter = "2 of 4, The Nose";
+  EXPECT_EQ(noticeOf(command, facts)->words, "Chapter 2 of 4, The Nose");
 }
 
 TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
