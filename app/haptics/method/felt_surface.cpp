@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "app/haptics/method/edge_motion.h"
@@ -218,14 +219,17 @@ RELIEVO_TICK_CODE FeltSurface::Weighed FeltSurface::weighedAt(const SurfaceWindo
 }
 
 // Reads blocks of the next frame before it is due, at the place that the finger will have reached. Only in the last 20
-// ms: earlier, a fast finger could still go elsewhere.
+// ms and kFarthestMm: earlier, a fast finger could still go elsewhere.
 void FeltSurface::readAhead(const SurfaceWindow& window, MediaTime next, const FrameMoment& moment,
                             const glm::dvec2& place_mm, const glm::dvec2& mm_per_s) RELIEVO_RT {
   constexpr Duration kAhead = std::chrono::milliseconds(20);
+  constexpr double kFarthestMm = 10;
   if (moment.present >= moment.last) return;
   const Duration left = window.frames[static_cast<std::size_t>(moment.present) + 1].time - next;
   if (left > kAhead) return;
-  const glm::dvec2 then = place_mm + toSeconds(left) * mm_per_s;
+  const glm::dvec2 way = toSeconds(left) * mm_per_s;
+  if (glm::dot(way, way) > kFarthestMm * kFarthestMm) return;
+  const glm::dvec2 then = place_mm + way;
   narrow_.readAhead(slots_, then.x, then.y, moment);
   if (two_levels_) smooth_.readAhead(slots_, then.x, then.y, moment);
 }
