@@ -18,6 +18,14 @@ int blockFor(double pitch_mm, double samples_per_mm) RELIEVO_RT {
   return std::max(1, static_cast<int>(std::lround(pitch_mm * std::abs(samples_per_mm))));
 }
 
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+// One lane per slot: all bits of it where the slot has one.
+std::array<Int4, 2> ofSlots(std::uint32_t slots) RELIEVO_RT {
+  const Int4 all = Int4{} + static_cast<std::int32_t>(slots);
+  return {(all & Int4{1, 2, 4, 8}) != 0, (all & Int4{16, 32, 64, 128}) != 0};
+}
+
 }  // namespace
 
 void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
@@ -68,26 +76,32 @@ std::uint32_t ControlGrid::slotsMissing(int i, int j, const Frames& frames) cons
   return i_[p] == i && j_[p] == j ? frames.wanted & ~std::uint32_t{filled_[p]} : frames.wanted;
 }
 
-// Prefetches, in each frame that lacks one of `count` adjacent points, the span of its missing points.
-void ControlGrid::prefetchRow(int i0, int count, int j, const Frames& frames) const RELIEVO_RT {
+bool ControlGrid::isComplete(int i, int j, const Frames& frames) const RELIEVO_RT {
+  const std::size_t p = slotOf(i, j);
+  return i_[p] == i && j_[p] == j && (frames.wanted & ~std::uint32_t{complete_[p]}) == 0;
+}
+
+// Prefetches, in each frame that lacks one of the points, the span of its missing points.
+ControlGrid::Lacking ControlGrid::prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT {
   std::uint32_t any = 0;
-  int begin = count, end = 0;
-  for (int k = 0; k < count; ++k) {
-    const std::uint32_t slots = slotsMissing(i0 + k, j, frames);
+  Lacking lacking{.j = j, .begin = i1, .end = i0};
+  for (int i = i0; i < i1; ++i) {
+    const std::uint32_t slots = slotsMissing(i, j, frames);
     if (slots == 0) continue;
     any |= slots;
-    begin = std::min(begin, k);
-    end = k + 1;
+    lacking.begin = std::min(lacking.begin, i);
+    lacking.end = i + 1;
   }
-  if (any == 0) return;
-  const std::int64_t u = (std::int64_t{i0} + begin) * block_.width, v = std::int64_t{j} * block_.height;
-  const std::int64_t u_end = u + (end - begin) * block_.width, v_end = v + block_.height;
-  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return;  // blocks cut by the picture's edge are rare
+  if (any == 0) return lacking;
+  const std::int64_t u = std::int64_t{lacking.begin} * block_.width, v = std::int64_t{j} * block_.height;
+  const std::int64_t u_end = std::int64_t{lacking.end} * block_.width, v_end = v + block_.height;
+  if (u < 0 || v < 0 || u_end > cols_ || v_end > rows_) return lacking;  // blocks cut by the picture's edge are rare
   for (; any != 0; any &= any - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(any));
     frames.window->frames[frames.frame_of_slot[slot]].field.prefetch(static_cast<int>(u), static_cast<int>(v),
-                                                                     end - begin, block_);
+                                                                     lacking.end - lacking.begin, block_);
   }
+  return lacking;
 }
 
 void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missing) RELIEVO_RT {
@@ -99,7 +113,9 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
   const bool outside =
       c0 >= c1 || r0 >= r1 || 2 * std::int64_t{cols} * rows < std::int64_t{block_.width} * block_.height;
   const bool cut = !outside && (cols < block_.width || rows < block_.height);
-  const SampledBlock block = cut ? frames.window->frames[0].field.blockOf(cols, rows, most_samples_) : block_;
+  SampledBlock part;
+  if (cut) part = frames.window->frames[0].field.blockOf(cols, rows, most_samples_);
+  const SampledBlock& block = cut ? part : block_;
   for (; missing != 0; missing &= missing - 1) {
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const auto bit = static_cast<std::uint8_t>(1U << slot);
@@ -113,45 +129,66 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
   }
 }
 
-void ControlGrid::complete(int i, int j, const Frames& frames) RELIEVO_RT {
-  fill(i, j, frames);
-  const std::size_t p = slotOf(i, j);
-  const std::uint32_t missing = frames.wanted & ~std::uint32_t{complete_[p]};
-  if (missing == 0) return;
-  if (bend_ > 0) {
-    for (const int side : {-1, 1}) {
-      fill(i + side, j, frames);
-      fill(i, j + side, frames);
+void ControlGrid::complete(const Points& points, const Frames& frames) RELIEVO_RT {
+  // The smallest rectangle around what is not complete.
+  Points box{points.i1, points.j1, points.i0, points.j0};
+  for (int j = points.j0; j < points.j1; ++j) {
+    for (int i = points.i0; i < points.i1; ++i) {
+      if (isComplete(i, j, frames)) continue;
+      box = {std::min(box.i0, i), std::min(box.j0, j), std::max(box.i1, i + 1), j + 1};
     }
   }
-  complete_[p] |= static_cast<std::uint8_t>(missing);
-  keepCurvature(p, {slotOf(i - 1, j), slotOf(i + 1, j), slotOf(i, j - 1), slotOf(i, j + 1)}, missing);
+  if (box.i0 >= box.i1) return;
+  const int rim = bend_ > 0 ? 1 : 0;
+  std::array<Lacking, 6> rows;
+  std::size_t count = 0;
+  for (int j = box.j0 - rim; j < box.j1 + rim; ++j) {
+    const int beside = j < box.j0 || j >= box.j1 ? 0 : rim;  // the rim has no corners
+    rows[count++] = prefetchRow(box.i0 - beside, box.i1 + beside, j, frames);
+  }
+  for (std::size_t row = 0; row < count; ++row) {
+    for (int i = rows[row].begin; i < rows[row].end; ++i) fill(i, rows[row].j, frames);
+  }
+  for (int j = box.j0; j < box.j1; ++j) {
+    for (int i = box.i0; i < box.i1; ++i) {
+      const std::uint32_t missing = frames.wanted & ~std::uint32_t{complete_[slotOf(i, j)]};
+      if (missing != 0) keepCurvature(i, j, missing);
+    }
+  }
 }
 
 // A direction in which a neighbour is a hole is not corrected.
-void ControlGrid::keepCurvature(std::size_t p, const std::array<std::size_t, 4>& around,
-                                std::uint32_t missing) RELIEVO_RT {
-  const auto [left, right, above, below] = around;
-  const std::uint32_t across_hole = hole_[p] | hole_[left] | hole_[right];
-  const std::uint32_t down_hole = hole_[p] | hole_[above] | hole_[below];
-  for (; missing != 0; missing &= missing - 1) {
-    const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
-    const float mean = mean_[p][slot];
-    float most = 0;
-    const auto bent = [&](std::size_t before, std::size_t after, std::uint32_t holes) RELIEVO_RT {
-      if ((holes >> slot & 1U) != 0) {
-        most = std::numeric_limits<float>::infinity();
-        return 0.F;
-      }
-      const float bend = mean_[before][slot] - 2 * mean + mean_[after][slot];
-      const float size = std::abs(bend);
-      most = std::max(most, size);
-      return std::copysign(std::max(std::min(size, 2 * most_bend_mm_ - size), 0.F), bend);
+void ControlGrid::keepCurvature(int i, int j, std::uint32_t missing) RELIEVO_RT {
+  const std::size_t p = slotOf(i, j);
+  complete_[p] |= static_cast<std::uint8_t>(missing);
+  if (bend_ == 0) {
+    height_[p] = mean_[p];
+    return;
+  }
+  const std::size_t left = slotOf(i - 1, j), right = slotOf(i + 1, j), above = slotOf(i, j - 1),
+                    below = slotOf(i, j + 1);
+  const auto across_hole = ofSlots(hole_[p] | hole_[left] | hole_[right]);
+  const auto down_hole = ofSlots(hole_[p] | hole_[above] | hole_[below]);
+  const auto wanted = ofSlots(missing);
+  const Float4 twice = Float4{} + 2 * most_bend_mm_;
+  for (std::size_t half = 0; half < 2; ++half) {  // of the slots
+    const auto of = [half](Heights& heights, std::size_t point) RELIEVO_RT { return &heights[point][4 * half]; };
+    const Float4 mean = load4(of(mean_, p));
+    Float4 most{};
+    const auto bent = [&](std::size_t before, std::size_t after, const Int4& holes) RELIEVO_RT {
+      constexpr Float4 kNone{};
+      const Float4 bend = load4(of(mean_, before)) - 2 * mean + load4(of(mean_, after));
+      const Float4 size = holes ? kNone + std::numeric_limits<float>::infinity() : bend > -bend ? bend : -bend;
+      most = size > most ? size : most;
+      const Float4 rest = twice - size, least = size < rest ? size : rest, counts = least > kNone ? least : kNone;
+      return bend < kNone ? -counts : counts;
     };
-    const float bends = bend_ > 0 ? bent(left, right, across_hole) + bent(above, below, down_hole) : 0;
-    height_[p][slot] = mean - bend_ * bends;
+    const Float4 bends = bent(left, right, across_hole[half]) + bent(above, below, down_hole[half]);
+    store4(of(height_, p), wanted[half] ? mean - bend_ * bends : load4(of(height_, p)));
     if (straight_ == nullptr) continue;
-    straight_->of_points[p][slot] = std::min(std::max(2 - most / straight_->most_mm, 0.F), 1.F);
+    const Float4 straight = 2 - most / straight_->most_mm, least = straight > 0 ? straight : Float4{};
+    store4(of(straight_->of_points, p),
+           wanted[half] ? least < 1 ? least : Float4{} + 1 : load4(of(straight_->of_points, p)));
   }
 }
 
@@ -178,14 +215,10 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 
 void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
   if (!wasPatch(i0, j0, frames.wanted)) {
-    const int rim = bend_ > 0 ? 1 : 0;
-    for (int j = j0 - rim; j < j0 + 4 + rim; ++j) prefetchRow(i0 - rim, 4 + 2 * rim, j, frames);
+    complete({i0, j0, i0 + 4, j0 + 4}, frames);
     std::uint32_t holes = 0;
     for (int j = j0; j < j0 + 4; ++j) {
-      for (int i = i0; i < i0 + 4; ++i) {
-        complete(i, j, frames);
-        holes |= hole_[slotOf(i, j)] & frames.wanted;
-      }
+      for (int i = i0; i < i0 + 4; ++i) holes |= hole_[slotOf(i, j)] & frames.wanted;
     }
     patch_ = {i0, j0, frames.wanted};
     patch_holes_ = holes != 0;
@@ -215,16 +248,6 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frame
   }
 }
 
-// Prefetches the samples that `complete` will read.
-void ControlGrid::prefetchPoint(int i, int j, const Frames& frames) const RELIEVO_RT {
-  prefetchRow(i, 1, j, frames);
-  if (bend_ == 0) return;
-  for (const int side : {-1, 1}) {
-    if (slotsMissing(i + side, j, frames) != 0) prefetchRow(i + side, 1, j, frames);
-    if (slotsMissing(i, j + side, frames) != 0) prefetchRow(i, 1, j + side, frames);
-  }
-}
-
 void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
   if (ahead_ == Place{i0, j0, frames.wanted}) return;
   constexpr int kFarthest = kSide - 6;  // beyond, a point would take the place of one of the last patch or its rim
@@ -234,10 +257,7 @@ void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
   for (int j = j0; j < j0 + 4; ++j) {
     for (int i = i0; i < i0 + 4; ++i) {
       if (blocks_read_ >= until) return;
-      const std::size_t p = slotOf(i, j);
-      if (i_[p] == i && j_[p] == j && (frames.wanted & ~std::uint32_t{complete_[p]}) == 0) continue;
-      prefetchPoint(i, j, frames);
-      complete(i, j, frames);
+      if (!isComplete(i, j, frames)) complete({i, j, i + 1, j + 1}, frames);
     }
   }
   ahead_ = {i0, j0, frames.wanted};

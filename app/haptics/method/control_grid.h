@@ -99,14 +99,22 @@ class ControlGrid {
   [[nodiscard]] static std::size_t slotOf(int i, int j) RELIEVO_RT {
     return static_cast<std::size_t>(j & (kSide - 1)) * kSide + static_cast<std::size_t>(i & (kSide - 1));
   }
+  // The control points (i0 .. i1-1, j0 .. j1-1).
+  struct Points {
+    int i0, j0, i1, j1;
+  };
   // Reads the missing frames of a point's block.
   void fill(int i, int j, const Frames& frames) RELIEVO_RT;
-  // The same, and the blocks around it that its height needs.
-  void complete(int i, int j, const Frames& frames) RELIEVO_RT;
-  void keepCurvature(std::size_t point, const std::array<std::size_t, 4>& around, std::uint32_t missing) RELIEVO_RT;
+  // Reads what points lack, and the blocks around them that their heights need.
+  void complete(const Points& points, const Frames& frames) RELIEVO_RT;
+  void keepCurvature(int i, int j, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] std::uint32_t slotsMissing(int i, int j, const Frames& frames) const RELIEVO_RT;
-  void prefetchPoint(int i, int j, const Frames& frames) const RELIEVO_RT;
-  void prefetchRow(int i0, int count, int j, const Frames& frames) const RELIEVO_RT;
+  [[nodiscard]] bool isComplete(int i, int j, const Frames& frames) const RELIEVO_RT;
+  // Of adjacent points in a row, those between the first and the last that lack a frame.
+  struct Lacking {
+    int j = 0, begin = 0, end = 0;
+  };
+  [[nodiscard]] Lacking prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,
                                      const SampledBlock& block) const RELIEVO_RT;

@@ -16,6 +16,10 @@ using Float4 = float __attribute__((vector_size(16)));
   return v;
 }
 
+inline void store4(float* p, const Float4& v) RELIEVO_RT {
+  std::memcpy(p, &v, sizeof v);
+}
+
 // The horizontal sums of a, b, c and d.
 [[nodiscard]] inline Float4 sums(const Float4& a, const Float4& b, const Float4& c, const Float4& d) RELIEVO_RT {
   const Float4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5) + __builtin_shufflevector(a, b, 2, 6, 3, 7);
