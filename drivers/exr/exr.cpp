@@ -108,9 +108,21 @@ std::string channelOfDepth(const Imf::ChannelList& channels) {
   return "";
 }
 
-Names namedDepth(const Imf::ChannelList& channels) {
+// The component of a vector, such as a normal or a position, beside its X.
+bool isOfVector(const Imf::ChannelList& all, const std::string& name) {
+  const std::string last = lastPart(name), layer = name.substr(0, name.size() - last.size());
+  return last == "z" && (all.findChannel(layer + "X") != nullptr || all.findChannel(layer + "x") != nullptr);
+}
+
+Names namedDepth(const Imf::ChannelList& all) {
+  Imf::ChannelList channels, mist;  // Blender's mist goes from 0 to 1: it is depth where there is no other
+  for (auto channel = all.begin(); channel != all.end(); ++channel) {
+    if (isOfVector(all, channel.name())) continue;
+    (says("mist", channel.name()) ? mist : channels).insert(channel.name(), channel.channel());
+  }
   std::string depth = channelNamed(channels, {"z", "depth", "distance", "zdepth", "pz", "disparity", "disp"});
   if (depth.empty()) depth = channelOfDepth(channels);
+  if (depth.empty()) depth = channelNamed(mist, {"z"});
   return depth.empty() ? Names{} : Names{depth};
 }
 
