@@ -99,6 +99,13 @@ std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& le
   return names;
 }
 
+// Leaves out pictures beside the others that their names tell to be something else ("1.pgm", "1_ab.pgm").
+std::vector<std::string> withoutOthers(std::vector<std::string> names, std::size_t& left_out) {
+  const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
+  if (!std::ranges::all_of(names, isOther)) left_out += std::erase_if(names, isOther);
+  return names;
+}
+
 // Pictures of one folder by the words in their names. Names that say neither are colour beside those that say depth.
 void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
   std::map<Role, std::vector<std::string>> by_role;
@@ -117,7 +124,8 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
 // The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0").
 PictureFiles picturesIn(const std::string& folder, FoundPictures& found) {
   auto listing = listingOf(folder).value_or(Listing{});
-  if (!listing.pictures.empty()) return {folder, oneKind(std::move(listing.pictures), found.left_out)};
+  if (!listing.pictures.empty())
+    return {folder, oneKind(withoutOthers(std::move(listing.pictures), found.left_out), found.left_out)};
   std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
     auto inner = listingOf(folder + name).value_or(Listing{}).pictures;

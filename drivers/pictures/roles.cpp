@@ -11,15 +11,15 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 7> kDepth{"xyz",         "depth", "depths",  "disparity",
-                                                 "disparities", "disp",  "depthmap"};
-constexpr std::array<std::string_view, 12> kColor{"rgb",    "color", "colour", "image", "images", "img",
-                                                  "colors", "im",    "wide",   "rgba",  "clean",  "pv"};
-constexpr std::array<std::string_view, 27> kOther{
+constexpr std::array<std::string_view, 9> kDepth{"xyz",  "depth",    "depths",    "disparity", "disparities",
+                                                 "disp", "depthmap", "depthcrop", "mist"};
+constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
+                                                  "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
+constexpr std::array<std::string_view, 28> kOther{
     "flow",     "flows", "segmentation", "coordinates", "occlusion", "occlusions", "outofframe",
     "semantic", "ab",    "mask",         "masks",       "maskcrop",  "normal",     "normals",
     "seg",      "label", "labels",       "instance",    "infrared",  "ir",         "pose",
-    "thumb",    "cover", "preview",      "confidence",  "conf",      "intrinsics"};
+    "thumb",    "cover", "preview",      "confidence",  "conf",      "intrinsics", "masked"};
 
 std::vector<std::string> wordsOf(std::string_view name) {
   std::vector<std::string> words(1);

@@ -246,8 +246,17 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   EXPECT_THAT(read(folder_ / "sintel").depth, ElementsAre("0 sintel/disparities/alley/1.png"));
   file("mvtec/rgb/000.png"), file("mvtec/xyz/000.tiff");
   EXPECT_THAT(read(folder_ / "mvtec").depth, ElementsAre("0 mvtec/xyz/000.tiff"));
-  file("holo/PV/1.png"), file("holo/Depth Long Throw/1.pgm");
+  file("holo/PV/1.png"), file("holo/Depth Long Throw/1.pgm"), file("holo/Depth Long Throw/1_ab.pgm");
   EXPECT_THAT(read(folder_ / "holo").color, ElementsAre("0 holo/PV/1.png"));
+  EXPECT_THAT(read(folder_ / "holo").depth, ElementsAre("0 holo/Depth Long Throw/1.pgm"));
+  EXPECT_THAT(read(folder_ / "holo").notes, ElementsAre(HasSubstr("1 other pictures are left out")));
+  // SceneNet, InteriorNet, Washington's RGB-D objects.
+  file("net/photo/0.jpg"), file("net/depth/0.png"), file("net/instance/0.png");
+  EXPECT_THAT(read(folder_ / "net").color, ElementsAre("0 net/photo/0.jpg"));
+  file("in/cam0/data/7.png"), file("in/depth0/data/7.png"), file("in/label0/data/7.png");
+  EXPECT_THAT(read(folder_ / "in").color, ElementsAre("0 in/cam0/data/7.png"));
+  file("uw/apple_crop.png"), file("uw/apple_depthcrop.png"), file("uw/apple_maskcrop.png");
+  EXPECT_THAT(read(folder_ / "uw").depth, ElementsAre("0 uw/apple_depthcrop.png"));
   // Names that hold a word of colour or depth, and one of a layer.
   for (const char* name : {"color", "depth", "color_mask", "depth_confidence"})
     file("scan/" + std::string(name) + "_1.png");
