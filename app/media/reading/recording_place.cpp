@@ -37,14 +37,24 @@ std::optional<double> numberIn(const Json& json, const char* key) {
   return found != json.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
+// Each tells the mm of a code.
+using Scale = std::optional<double>;
+
+Scale ofMetre(Scale codes) {
+  return codes && *codes > 0 ? std::optional(1000 / *codes) : std::nullopt;
+}
+Scale inMetres(Scale metres) {
+  return metres ? std::optional(1000 * *metres) : std::nullopt;
+}
+
 // NICE-SLAM's Replica: {"camera": {.., "scale": 6553.5}}, in codes a metre.
-std::optional<double> codesPerMetre(const Json& json) {
+Scale scaleOfReplica(const Json& json) {
   const auto camera = json.find("camera");
-  return camera != json.end() && camera->is_object() ? numberIn(*camera, "scale") : std::nullopt;
+  return camera != json.end() && camera->is_object() ? ofMetre(numberIn(*camera, "scale")) : std::nullopt;
 }
 
 // BOP: {"0": {"cam_K": [..], "depth_scale": 0.1}, "1": ..}, or one camera.json for all of a data set.
-std::optional<double> depthScale(const Json& json) {
+Scale scaleOfBop(const Json& json) {
   if (const auto scale = numberIn(json, "depth_scale")) return scale;
   for (const Json& picture : json) {
     if (!picture.is_object()) continue;
@@ -53,28 +63,49 @@ std::optional<double> depthScale(const Json& json) {
   return std::nullopt;
 }
 
+// Open3D's recorder: {"depth_scale": 1000.0, "intrinsic_matrix": [..], ..}, in codes a metre.
+Scale scaleOfOpen3d(const Json& json) {
+  return ofMetre(numberIn(json, "depth_scale"));
+}
+
+// Cameras of NeRFs: nerfstudio's and instant-ngp's keys, metres a code.
+Scale scaleOfNerf(const Json& json) {
+  const auto scale = numberIn(json, "depth_unit_scale_factor");
+  return inMetres(scale ? scale : numberIn(json, "integer_depth_scale"));
+}
+
+// NVIDIA's Falling Things and its relatives: always 10000 codes a metre.
+Scale scaleOfFallingThings(const Json& json) {
+  return json.contains("camera_settings") ? std::optional(0.1) : std::nullopt;
+}
+
+struct CameraFile {
+  const char *name, *kind;
+  Scale (*scale)(const Json&);
+};
+constexpr CameraFile kCameraFiles[] = {
+    {"scene_camera.json", "bop", scaleOfBop},
+    {"camera.json", "bop", scaleOfBop},
+    {"cam_params.json", "replica", scaleOfReplica},
+    {"camera_intrinsic.json", "bop", scaleOfOpen3d},
+    {"intrinsic.json", "bop", scaleOfOpen3d},
+    {"transforms.json", "bop", scaleOfNerf},
+    {"_camera_settings.json", "bop", scaleOfFallingThings},
+};
+
 RecordingPlace lookForScale(const fs::path& folder) {
   constexpr int kFoldersUp = 4;
   fs::path at = folder;
   for (int i = 0; i < kFoldersUp; ++i) {
-    for (const char* name : {"scene_camera.json", "camera.json"}) {
-      const auto json = readJson(at / name);
-      const auto scale = json ? depthScale(*json) : std::nullopt;
-      if (!scale || *scale <= 0) continue;
-      return {findKind("bop"),
+    for (const CameraFile& camera : kCameraFiles) {
+      const auto json = readJson(at / camera.name);
+      const auto scale = json ? camera.scale(*json) : std::nullopt;
+      if (!scale || !(*scale > 0)) continue;
+      return {findKind(camera.kind),
               CalibrationOrigin::FileBeside,
               {{"unit", number(*scale)}},
-              print("%s says depth_scale %g mm", (at / name).c_str(), *scale),
-              (at / name).string()};
-    }
-    const auto cameras = readJson(at / "cam_params.json");
-    const auto per_metre = cameras ? codesPerMetre(*cameras) : std::nullopt;
-    if (per_metre && *per_metre > 0) {
-      return {findKind("replica"),
-              CalibrationOrigin::FileBeside,
-              {{"unit", number(1000 / *per_metre)}},
-              print("%s says %g codes a metre", (at / "cam_params.json").c_str(), *per_metre),
-              (at / "cam_params.json").string()};
+              print("%s says that a code is %g mm", (at / camera.name).c_str(), *scale),
+              (at / camera.name).string()};
     }
     if (!at.has_parent_path() || at.parent_path() == at) break;
     at = at.parent_path();

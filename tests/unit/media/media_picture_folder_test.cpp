@@ -78,6 +78,13 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
   picture("v/rgb/Camera_0/rgb_00000.ppm", 1), picture("v/depth/Camera_0/depth_00000.pgm", 2000);
   picture("r/results/frame000000.ppm", 1), picture("r/results/depth000000.pgm", 13107);
   std::ofstream(folder_ / "r/cam_params.json") << R"({"camera": {"w": 1200, "h": 680, "scale": 6553.5}})";
+  for (const char* name : {"o/color/1.ppm", "n/images/1.ppm", "i/images/1.ppm", "f/1.left.ppm"}) picture(name, 1);
+  for (const char* name : {"o/depth/1.pgm", "n/depths/1.pgm", "i/depth/1.pgm", "f/1.left.depth.pgm"})
+    picture(name, 13107);
+  std::ofstream(folder_ / "o/camera_intrinsic.json") << R"({"depth_scale": 4000.0, "height": 480})";  // Open3D
+  std::ofstream(folder_ / "n/transforms.json") << R"({"depth_unit_scale_factor": 0.0005, "frames": []})";
+  std::ofstream(folder_ / "i/transforms.json") << R"({"integer_depth_scale": 0.000125, "frames": []})";
+  std::ofstream(folder_ / "f/_camera_settings.json") << R"({"camera_settings": [{"name": "left"}]})";
   const auto unit = [&](const char* name) {
     PairReader reader(kReal);
     EXPECT_TRUE(reader.open({.url = folder_ / name}));
@@ -86,6 +93,10 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
   EXPECT_EQ(unit("m"), 0.25);
   EXPECT_EQ(unit("v"), 10);
   EXPECT_NEAR(unit("r"), 1000 / 6553.5, 1e-6);
+  EXPECT_EQ(unit("o"), 0.25);
+  EXPECT_EQ(unit("n"), 0.5);
+  EXPECT_EQ(unit("i"), 0.125);
+  EXPECT_EQ(unit("f"), 0.1);
 }
 
 // Stray Scanner: times that are no multiples of a period.
