@@ -147,10 +147,45 @@ bool isText(std::string_view head) {
   return !head.empty() && static_cast<unsigned char>(head.front()) < 0xF0 && std::ranges::all_of(head, is_written);
 }
 
+// Three numbers, each with a "&" behind it: width, height and channels.
+bool isOfColmap(std::string_view head) {
+  for (int number = 0; number < 3; ++number) {
+    const std::size_t end = head.find_first_not_of("0123456789");
+    if (end == 0 || end == head.npos || head[end] != '&') return false;
+    head.remove_prefix(end + 1);
+  }
+  return true;
+}
+
+// Files that lack a reader although others of their ending have one; null: none.
+const char* unreadVariant(std::string_view head, std::string_view ending) {
+  constexpr std::size_t kFlags = 20;  // of WebP; 2: it is animated
+  if (ending == "bin" && isOfColmap(head)) {
+    return "it is a depth map of COLMAP; convert it: python3 -c 'import numpy; w, h, c, d = open(\"FILE\", "
+           "\"rb\").read().split(b\"&\", 3); numpy.save(\"depth.npy\", numpy.frombuffer(d, \"<f4\").reshape(int(h), "
+           "int(w)))'";
+  }
+  if (ending == "dpt" && !head.starts_with("PIEH")) {
+    return "it is no depth of Sintel; if it is LINEMOD's, convert it: python3 -c 'import numpy; "
+           "numpy.save(\"depth.npy\", numpy.fromfile(\"FILE\", \"<u2\")[4:].reshape(numpy.fromfile(\"FILE\", "
+           "\"<i4\", 2)))'";
+  }
+  if (ending == "png" && head.find("acTL") != head.npos)
+    return "it is an animated PNG; let its name end in .apng, and it is played as a film";
+  if (ending == "webp" && head.substr(0, kFlags).ends_with(std::string_view("VP8X\x0a\0\0\0", 8)) &&
+      head.size() > kFlags && (head[kFlags] & 2) != 0) {
+    return "it is an animated WebP, which FFmpeg cannot read; convert it with ImageMagick: convert FILE %04d.png, and "
+           "name the folder";
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::optional<Error> unreadFormat(const std::string& path) {
   const std::string head = headOf(path);
+  if (const char* const line = head.empty() ? nullptr : unreadVariant(head, endingOf(path)); line != nullptr)
+    return Error{ErrorCode::Unsupported, 0, line};
   const auto found =
       std::ranges::find_if(kUnread, [&](const UnreadFormat& format) { return head.starts_with(format.magic); });
   const auto by_ending = std::ranges::find(kUnreadEndings, endingOf(path), &UnreadEnding::ending);

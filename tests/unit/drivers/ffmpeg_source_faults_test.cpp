@@ -118,6 +118,10 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.pth", "PK\3\4"sv, {"PyTorch", "torch.load"}},
       {"a.yml", "%YAML:1.0"sv, {"OpenCV", "FileStorage"}},
       {"a.gz", "\x1f\x8b"sv, {"unpack"}},
+      {"b.bin", "1280&720&1&"sv, {"COLMAP", "reshape(int(h), int(w))"}},
+      {"a.dpt", "\360\0\0\0\100\1\0\0"sv, {"LINEMOD", "numpy.fromfile"}},
+      {"a.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR12345678123451234\0\0\0\10acTL"sv, {"animated", ".apng"}},
+      {"a.webp", "RIFF\0\1\0\0WEBPVP8X\x0a\0\0\0\2\0\0\0"sv, {"animated WebP", "convert FILE %04d.png"}},
   };
   for (const auto& format : kFormats) {
     writeFile(folder / format.name, std::string(format.begin) + std::string(5000, '\x47'));
