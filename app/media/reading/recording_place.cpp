@@ -166,6 +166,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"icl-nuim", "icl"},
       {"icl_nuim", "icl"},
       {"rgbd_dataset_freiburg", "tum"},
+      {"aligned_depth", "mm"},  // RealSense's; OpenLORIS has TUM's layout
       {".depth.png", "mm"},
       {"/depth_bw/", "near-dark"},
       {"scannet", "scannet"},

@@ -97,6 +97,8 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
   EXPECT_EQ(unit("n"), 0.5);
   EXPECT_EQ(unit("i"), 0.125);
   EXPECT_EQ(unit("f"), 0.1);
+  picture("l/color/1560000072.05.ppm", 1), picture("l/aligned_depth/1560000072.05.pgm", 2568);
+  EXPECT_EQ(unit("l"), 1) << "OpenLORIS";
 }
 
 // Stray Scanner: times that are no multiples of a period.
