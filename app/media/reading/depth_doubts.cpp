@@ -80,14 +80,20 @@ std::string doubtRelief(const Frame& depth, const DepthCalibration& calibration)
 std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
   constexpr double kColored = 0.2, kGray = 0.99;
   if (calibration.code != DepthCode::Luma || depth.model == ColorModel::Gray) return "";
-  const double colored = 1 - lookAt(depth).gray;
+  const PictureLook look = lookAt(depth);
+  const double colored = 1 - look.gray;
   if (colored <= kColored) return "";
   if (color != nullptr && lookAt(*color).gray >= kGray) {
     return print(
         "%.0f %% of the depth is coloured and the colour is gray: they look exchanged; give the other as --depth",
         100 * colored);
   }
-  return print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored);
+  if (isHue(look))
+    return print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored);
+  return print(
+      "%.0f %% of the depth is coloured but read as brightness, and its colours are of no known map, so the relief is "
+      "wrong: write the depth again in gray, better of 16 bits, or name its map, if it is one: --depth-code turbo, ..",
+      100 * colored);
 }
 
 // Holes around a thing lie as its outline does in the colour; a view has none.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -160,6 +161,26 @@ TEST(Recordings, ExchangedInputsAndOtherShapesAreTold) {
   EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "wide.mkv"}).info.reading.doubts,
               Contains(HasSubstr("stretched")));
   EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"}).info.reading.doubts, IsEmpty());
+}
+
+// RealSense's colouring "Cold", by distance: neither a hue nor a map whose codes are known.
+TEST(Recordings, ColoursOfAnUnknownMapAreDoubtedWithoutAnOptionThatDoesNotHelp) {
+  constexpr double kCold[][3] = {{230, 247, 255}, {0, 92, 230}, {0, 179, 179}, {0, 51, 153}, {0, 5, 15}};
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {photo()});
+  ClipTrack cold = photo();
+  cold.sample = [&](int k, int c, int r, int) {
+    const double place = std::clamp((distanceMm(c, r) - 500) / 4000, 0.0, 0.999) * 4;
+    const auto low = static_cast<std::size_t>(place);
+    std::array<double, 3> color{};
+    for (std::size_t i = 0; i < 3; ++i)
+      color[i] = std::lerp(kCold[low][i], kCold[low + 1][i], place - std::floor(place)) / 255;
+    return yuvCode(k, color);
+  };
+  makeClip(folder / "depth.mkv", {cold});
+  const Seen seen = open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"});
+  EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("of no known map")));
+  EXPECT_THAT(seen.info.reading.doubts, testing::Not(Contains(HasSubstr("--depth-code hue"))));
 }
 
 TEST(Recordings, MillimetresThatWereSaidToBeShadesAreDoubted) {
