@@ -25,6 +25,9 @@ constexpr const char* kNoPictures =
     "the bag has no pictures (sensor_msgs/Image, CompressedImage); record a camera's topics";
 constexpr const char* kNoKnownPictures =
     "the bag's pictures have no known encoding; record them raw, as JPEG or as PNG";
+constexpr const char* kPackedDepth =
+    "the bag's depth is packed as compressedDepth in a way that is not read (RVL, not PNG); play the bag through "
+    "rosrun image_transport republish compressedDepth in:=TOPIC raw out:=/depth/image_raw and record that";
 
 Error cancelledError() noexcept {
   return {ErrorCode::Cancelled, 0, "interrupted while reading the bag"};
@@ -50,11 +53,13 @@ class RosbagSource final : public MediaSource {
     Topics topics = findTopics(bag_);
     if (cancelled_) return std::unexpected(cancelledError());
     if (topics.pictures.empty()) {
+      if (topics.packed_depth) return fail(ErrorCode::Unsupported, kPackedDepth);
       if (topics.unknown) return fail(ErrorCode::Unsupported, kNoKnownPictures);
       return fail(ErrorCode::NotFound, kNoPictures);
     }
     topics_ = std::move(topics.pictures);
     const FilmTopics film = chooseTopics(topics_);
+    if (!film.depth && topics.packed_depth) return fail(ErrorCode::Unsupported, kPackedDepth);
     if (!film.color && !film.depth) return fail(ErrorCode::NotFound, kNoPictures);
     chooseClock(film);
     chooseChunks(film);

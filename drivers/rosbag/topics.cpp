@@ -81,7 +81,11 @@ Topics findTopics(BagFile& bag) {
     const auto repeated = std::ranges::unique(topic.chunks);
     topic.chunks.erase(repeated.begin(), repeated.end());
   }
-  found.unknown = std::erase_if(found.pictures, [&](Topic& topic) { return !look(bag, topic); }) > 0;
+  found.unknown = std::erase_if(found.pictures, [&](Topic& topic) {
+                    if (look(bag, topic)) return false;
+                    found.packed_depth = found.packed_depth || speaksOf(topic.name, "compresseddepth");
+                    return true;
+                  }) > 0;
   return found;
 }
 

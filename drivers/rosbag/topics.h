@@ -26,10 +26,11 @@ struct Topic {
   Role role = Role::Other;
 };
 
-// All topics whose first message is a picture of a known encoding. `unknown` is the encoding of one that is not.
+// All topics whose first message is a picture of a known encoding. `unknown`: there are others.
 struct Topics {
   std::vector<Topic> pictures;
   bool unknown = false;
+  bool packed_depth = false;  // of the unknown ones: a compressedDepth, such as RVL
 };
 [[nodiscard]] Topics findTopics(BagFile& bag);
 

@@ -156,6 +156,15 @@ TEST_F(RosbagSource, RefusesBagsWithoutPicturesAndOtherVersionsInOneLine) {
   odd.write(odd.connect("/depth", "sensor_msgs/Image"), 0, bagImage(image));
   EXPECT_EQ(openingOf(odd.finish()).error().code, ErrorCode::Unsupported);
 
+  BagWriter packed;
+  packed.write(packed.connect("/color", "sensor_msgs/Image"), 0,
+               bagImage({.stamp_ns = 5, .cols = 1, .rows = 1, .step = 3, .encoding = "rgb8", .data = "abc"}));
+  packed.write(packed.connect("/depth/compressedDepth", "sensor_msgs/CompressedImage"), 0,
+               bagCompressedImage(5, "16UC1; compressedDepth rvl", std::string(40, '\1')));
+  const auto rvl = openingOf(packed.finish());
+  EXPECT_EQ(rvl.error().code, ErrorCode::Unsupported);
+  EXPECT_NE(std::string(rvl.error().message).find("republish compressedDepth"), std::string::npos);
+
   EXPECT_EQ(openingOf("#ROSBAG V1.2\n").error().code, ErrorCode::Unsupported);
   EXPECT_EQ(openingOf(BagWriter().finish()).error().code, ErrorCode::Corrupt) << "empty";
 }
