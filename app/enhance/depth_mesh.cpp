@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
@@ -152,9 +153,13 @@ class Growing {
     const auto& p = delaunay_.points();
     const std::array<Point, 3> corners{p[a], p[b], p[c]};
     const Facet facet(corners, {codes_[a], codes_[b], codes_[c]});
+    constexpr int kAhead = 4, kLine = 16;  // rows; samples of a cache line
     Candidate worst{.error = bound_, .triangle = triangle};
     eachRow(corners, begin, end, every, [&](int row, int first, int last) {
       const float* const codes = known_.data() + map_.at(first, row);
+      // The processor foresees the next samples, but not a small triangle's next rows: each cost a wait for memory.
+      const std::size_t ahead = map_.at(first, row + kAhead), past = std::min(ahead + last - first + 1, known_.size());
+      for (std::size_t i = ahead; i < past; i += kLine) __builtin_prefetch(&known_[i]);
       const auto start = static_cast<float>(facet.origin + facet.down * row + facet.across * first);
       const auto step = static_cast<float>(facet.across);
       const auto error = [&](int i) { return std::abs(codes[i] - (start + step * static_cast<float>(i))); };
