@@ -110,7 +110,7 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
       ->needs("--depth-from");
 }
 
-// What the options about missing depth say together.
+// Combines the options about missing depth.
 Outcome<void> chooseDepth(Arguments& a) {
   if (a.depth_from.empty()) return {};
   const bool stereo = a.depth_from == "stereo";

@@ -54,7 +54,7 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
   return names;
 }
 
-// CLI11 says that an argument "was not expected"; this names what was meant, too.
+// CLI11 reports that an argument "was not expected"; this also names the option that was probably meant.
 void tellUnexpected(const CLI::App& program, const std::string& word) {
   const std::string option = word.substr(0, word.find('='));
   log(LogLevel::Error, word.c_str(), "%s%s; see %s --help",
@@ -109,7 +109,7 @@ const CLI::App* commandIn(const CLI::App& program, std::span<const char* const> 
   return command;
 }
 
-// "--report --loop": no file is meant to have an option's name. CLI11 would take it.
+// In "--report --loop", "--loop" is not meant as a file's name, though CLI11 would take it as one.
 const CLI::Option* withoutValue(const CLI::App& command, std::span<const char* const> words) {
   const std::vector<std::string> names = optionsOf(command);
   for (std::size_t i = 1; i < words.size(); ++i) {

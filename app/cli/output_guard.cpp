@@ -53,7 +53,7 @@ std::set<Inode> inodesOf(const std::vector<std::string>& inputs) {
   return inodes;
 }
 
-// Whether one of the inputs has the name of this file, which is not there yet. Asks about no other file.
+// True if one of the inputs has the name of this file, which does not exist yet.
 bool isNamed(const std::string& path, const std::vector<std::string>& inputs) {
   return std::ranges::any_of(inputs, [&](const std::string& input) {
     const fs::path named = localPathIn(input);

@@ -56,7 +56,7 @@ void addSeries(const fs::path& folder, const Numbered& series, std::vector<std::
   }
 }
 
-// How the names stand in the text of a list.
+// How a list's text contains the names.
 enum class ListKind : std::uint8_t {
   None,
   M3u,       // a name a line; HLS in quotes too, and playlists of films behind a colon
@@ -64,7 +64,7 @@ enum class ListKind : std::uint8_t {
   Dash,      // XML; most segments are named by a pattern
 };
 
-// FFmpeg knows lists by their beginning, under any name.
+// FFmpeg recognises lists by their first bytes, under any name.
 ListKind listKindOf(const std::string& path) {
   const std::string ending = endingOf(path);
   if (ending == "m3u" || ending == "m3u8") return ListKind::M3u;

@@ -54,7 +54,7 @@ bool SurfaceFeeder::addAhead(std::span<const Frame> ahead, std::span<const Frame
     if (depth.pts <= frames_.frames().back().time) continue;
     if (frames_.full()) return false;
     const auto added = add(depth, i < materials.size() ? materials[i] : Frame{});
-    if (!added || !*added) return false;  // told when it becomes the present one
+    if (!added || !*added) return false;  // reported when it becomes the present one
   }
   return true;
 }

@@ -15,7 +15,7 @@ constexpr int kMargin = kReach + 1;  // samples that a point keeps from the pict
 constexpr int kSteps = 10;
 constexpr double kStill = 0.005;  // samples: a step that changes nothing
 constexpr double kFarthest = 2;   // samples between the blocks' motion and the fit
-constexpr double kUnlike = 8;     // codes, in the mean: it is another thing
+constexpr double kUnlike = 8;     // codes, on average: above this it is another object
 constexpr double kTextured = 4;   // squared codes a sample: the weaker direction's slope
 
 // Brightness between the samples, within the picture.
@@ -45,7 +45,7 @@ Patch patchAt(const GrayPicture& p, double x, double y) {
   return patch;
 }
 
-// A point's surroundings, their slopes, and what the slopes say about its place.
+// A point's surroundings, their slopes, and the position that these imply.
 struct Look {
   Patch patch{}, slope_x{}, slope_y{};
   double xx = 0, xy = 0, yy = 0;
@@ -72,7 +72,7 @@ struct Place {
   double x = 0, y = 0;
 };
 
-// Where the blocks say that a point of the picture before has gone: their motion leads the other way.
+// The position to which the blocks' motion moves a point of the picture before; that motion points backwards.
 Place byBlocks(const GrayPicture& now, const std::vector<Motion>& motion, double x, double y) {
   Place to{x, y};
   for (int i = 0; i < 3; ++i) {

@@ -133,7 +133,7 @@ bool SteadyRelief::follow(const GrayPicture& gray, const DepthEstimate& estimate
   return true;
 }
 
-// Points of things that have come nearer or gone away are set anew; so are those where there are none.
+// Replaces points of objects that have come nearer or gone away, and adds points where there are none.
 void SteadyRelief::plant(const GrayPicture& gray) {
   std::erase_if(tracks_.points(), [](const TrackedPoint& point) { return point.strays >= kStrays; });
   tracks_.seed(gray);

@@ -45,7 +45,7 @@ void MapFollower::cut() {
   std::ranges::fill(places_, kNowhere);
 }
 
-// Between samples of one thing in between; at a thing's edge the nearest one's.
+// Interpolates between samples of one object; at an object's edge takes the nearest one's place.
 MapFollower::Place MapFollower::placeBefore(double x, double y) const {
   const int cols = last_->cols, rows = last_->rows;
   if (x < -kOutside || y < -kOutside || x > cols - 1 + kOutside || y > rows - 1 + kOutside) return kNowhere;

@@ -282,7 +282,7 @@ Result<void> KeptTracks::write(PacketPtr packet) {
   av_packet_rescale_ts(packet.get(), base, copy.stream->time_base);
   const bool strict = (film_->oformat->flags & AVFMT_TS_NONSTRICT) == 0;
   if (packet->dts != AV_NOPTS_VALUE && copy.last_dts != AV_NOPTS_VALUE) {
-    // A source whose times jump back: what comes before its time again is left out.
+    // In a source whose times jump back, packets are left out until the time before the jump is reached again.
     if (packet->dts < copy.last_dts || (strict && packet->dts == copy.last_dts)) return {};
   }
   copy.last_dts = packet->dts;

@@ -17,7 +17,7 @@ constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes;
 constexpr Error kTooSmall{ErrorCode::Unsupported, 0, "its pictures are too small to guess depth from"};
 constexpr int kLeastSide = 16;
 
-// "python3 run.py model.onnx" is a command, "my model.onnx" a network if it is there.
+// "python3 run.py model.onnx" is a command; "my model.onnx" is a network if that file exists.
 bool isNetwork(const std::string& how) {
   std::error_code none;
   return how.ends_with(".onnx") && (how.find(' ') == std::string::npos || std::filesystem::is_regular_file(how, none));

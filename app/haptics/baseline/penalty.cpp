@@ -16,7 +16,7 @@ Touch Penalty::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, Med
   if (!triangle) return touch;
   const TrianglePlane plane(surface, *triangle);
   const double below = plane.at(u - triangle->c, v - triangle->r) - hip_mm.z;
-  if (!(below > 0)) return touch;  // not a number over a hole
+  if (!(below > 0)) return touch;  // NaN over a hole
   const glm::dvec3 normal = glm::normalize(glm::dvec3(-plane.zu * grid.u_per_mm, -plane.zv * grid.v_per_mm, 1));
   touch.contact = true;
   touch.proxy_mm = hip_mm + below * normal.z * normal;

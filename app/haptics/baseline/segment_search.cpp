@@ -25,7 +25,7 @@ struct LineFamily {
   }
 };
 
-// The part of a way that lies over the grid, from 0 to 1 of it; empty, with the end before the begin, if none does.
+// The part of a path that lies over the grid, from 0 to 1; empty, with the end before the beginning, if none does.
 struct Stretch {
   double begin = 0, end = 1;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the material track, bounds what it says, and keeps the energy of a spring whose stiffness changes.
+// Reads the material track, limits its values, and keeps the energy of a spring whose stiffness changes.
 #include "app/haptics/method/place_material.h"
 
 #include <algorithm>

@@ -39,7 +39,7 @@ mode_t mask() {
   return now;
 }
 
-// The temporary folder beside the playlist. Ask about it where the file system may not answer, its end included.
+// The temporary folder beside the playlist. Access to it, its removal included, goes through calls that time out.
 struct Apart {
   Apart(const std::string& path, const std::string& segments) {
     removeLitter(path);
