@@ -65,7 +65,7 @@ std::string wrapped(std::string text) {
   return text;
 }
 
-// What stands in the SVG as PREFIX and a number becomes so much more.
+// Adds `pixels` to the number after PREFIX in the SVG.
 void enlarge(std::string& svg, std::string_view prefix, int pixels) {
   const std::size_t at = svg.find(prefix);
   if (at == std::string::npos) return;

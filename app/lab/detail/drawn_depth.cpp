@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All corners stand on samples: which samples a triangle covers is found in whole numbers.
+// All corners are samples, so the samples that a triangle covers are found in whole numbers.
 #include "app/lab/detail/drawn_depth.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Heights {
  public:
   explicit Heights(const HeightField& field) : cols_(field.cols()), rows_(field.rows()), z_(own(field)) {}
 
-  // Whatever way round its corners stand.
+  // In any order of the corners.
   void cover(const Corner& a, Corner b, Corner d) {
     int twice_area = (b.c - a.c) * (d.r - a.r) - (b.r - a.r) * (d.c - a.c);
     if (twice_area == 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is timed is the method alone: frames are rendered before, and the window moves between the ticks.
+// Only the method is timed: frames are rendered before, and the window moves between the ticks.
 #include "app/lab/film/film_run.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything between film and finger is the real thing but for the device.
+// Everything between film and finger is the player's own code, except the device.
 #include "app/lab/finger/touch_stage.h"
 
 #include "app/lab/film/made_film.h"

@@ -27,7 +27,7 @@ constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand besid
 
 struct CurveKind {
   const char* contender;
-  const char* hold;  // whose peak its own is compared with: a surface much like it, the frame held
+  const char* hold;  // the curve that its peak is compared with: a similar surface, with the frame held
 };
 constexpr std::array kCurves{
     CurveKind{"relievo", "relievo hold"},
@@ -63,7 +63,7 @@ struct Curve {
   [[nodiscard]] std::string column() const {
     return print("%s %d/s %s", kind->contender, setting.frames_per_s, setting.depth->name);
   }
-  // Nothing where contact is lost: there is no force to speak of.
+  // NaN where contact is lost, since there is hardly any force.
   [[nodiscard]] double peakDb() const {
     if (lost()) return std::numeric_limits<double>::quiet_NaN();
     const double step = spectrum.stepHz();

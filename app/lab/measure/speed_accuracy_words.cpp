@@ -21,7 +21,7 @@ std::string listed(std::string list, const std::string& item) {
   return std::move(list) + (list.empty() ? "" : "; ") + item;
 }
 
-// Two digits, and no exponent however long it takes.
+// Two digits, without an exponent even for long times.
 std::string told(double us) {
   return us < 100 ? print("%.2g", us) : print("%.0f", us);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every matcher is given the same pictures, one film after the other, so that times are of one thing alone.
+// All matchers get the same pictures, one film after the other, so that each is timed alone.
 #include "app/lab/measure/stereo.h"
 
 #include <algorithm>

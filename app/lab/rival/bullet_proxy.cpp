@@ -84,7 +84,7 @@ class FirstHit final : public btTriangleRaycastCallback {
   btVector3 normal_{0, 0, 1};
 };
 
-// The place on all of these planes that is closest to the finger; nothing where they have none in common.
+// The point on all of these planes that is closest to the finger; nullopt if they have no point in common.
 std::optional<glm::dvec3> closestOn(std::span<const Plane> planes, const glm::dvec3& hip) {
   constexpr double kParallel = 1e-7;
   const auto off = [&](const Plane& p) { return p.offset_mm - glm::dot(p.normal, hip); };

@@ -33,7 +33,7 @@ SmoothedPictures smoothAll(std::span<const TimedSurface> frames, double sigma_mm
       const auto codes = std::make_shared<std::vector<std::uint16_t>>();
       const std::size_t count = static_cast<std::size_t>(smoother.cols()) * static_cast<std::size_t>(smoother.rows());
       codes->reserve(count);
-      askForHugePages(codes->data(), 2 * count);  // the rivals' pictures lie as the film's do
+      askForHugePages(codes->data(), 2 * count);  // the rivals' pictures get the same kind of memory as the film's
       codes->resize(count);
       if (smoother.smooth(frames[i].field, *codes)) hole = true;
       done.pictures[i] = grayFrame(codes, smoother.cols(), smoother.rows());

@@ -85,7 +85,7 @@ double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, dou
   for (const StageTick& tick : ticks) {
     const glm::dvec3& p = tick.hip_mm;
     const double below = relief(p.x, p.y, toSeconds(tick.media)) - p.z;
-    // Not written as "less than": what is not a number is not felt.
+    // Not written as "less than", so that NaN counts as not felt.
     const bool felt = tick.asked.contact && glm::length(tick.asked.force_n) >= kFelt * stiffness * below;
     if (!tick.exchanged || felt || !(below > deep)) {
       since = -1;

@@ -18,7 +18,7 @@ namespace {
 constexpr int kLeadTicks = 40;  // the finger comes in
 
 struct Scene {
-  Relief finger;  // whose height the finger follows
+  Relief finger;  // the finger follows the height of this relief
   std::vector<TimedSurface> film;
 };
 

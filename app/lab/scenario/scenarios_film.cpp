@@ -121,7 +121,7 @@ Verdict holdVideo(const Challenger& challenger, bool quick) {
   const auto ticks = playThrough(
       *method,
       {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
-  // What moves at f leaves its images at the frame rate less and more f, and at twice that: the highest line there.
+  // Motion at f leaves images at the frame rate -/+ f, and at twice that rate; counts the highest line there.
   const auto counted = between(ticks, kFrom, duration);
   double largest = 0;
   for (const double centre : {kFps, 2 * kFps}) {
@@ -151,7 +151,7 @@ Verdict seek(const Challenger& challenger, bool /*quick*/) {
     return t < kThere ? Play::Moment{.media_s = kTo, .rate = 0, .epoch = 1}
                       : Play::Moment{.media_s = kTo + t - kThere, .epoch = 1};
   };
-  // Nothing of the old place is handed on after the jump, and the new one's frames take a while.
+  // After the jump no frame of the old position is handed out, and those of the new one take a while.
   play.supply = [&](std::size_t i, double t) {
     const bool old = toSeconds(film[i].time) < 1.5;
     return old ? t < kJump : t >= kThere;

@@ -46,7 +46,7 @@ Rest pressOn(const Challenger& challenger, std::span<const TimedSurface> film, d
   return rest;
 }
 
-// What the device says of a finger at `p` at a tick; nothing: the exchange fails.
+// The position that the device reports for a finger at `p` at a tick; nullopt: the exchange fails.
 std::optional<glm::dvec3> asEncoded(const glm::dvec3& p, int tick) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   if (tick == 500) return p + glm::dvec3(0, 0, 12);                   // outside

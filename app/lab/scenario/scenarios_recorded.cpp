@@ -128,7 +128,7 @@ Verdict dropout(const Challenger& challenger, bool quick) {
   for (int round = 2; round < rounds; ++round) {
     const double hole = round * kHoleEvery / kFps;
     const double off = percentOff(meanForce(between(ticks, hole - 3 / kFps, hole)), truth);
-    worst = off <= worst ? worst : off;  // what is not a number stays
+    worst = off <= worst ? worst : off;  // keeps a NaN
   }
   Judge judge;
   judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kHoleAndLate,

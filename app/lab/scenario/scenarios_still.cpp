@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A still scene, and a finger that goes where it is hard: edges, thin things, noise, haste.
+// A still scene, and a finger in difficult places: edges, thin objects, noise, high speed.
 #include <algorithm>
 #include <array>
 #include <cmath>
