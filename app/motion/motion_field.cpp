@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kHighest = 1 << 30;
 constexpr int kBlock = 8, kLevels = 3, kPasses = 3;
-constexpr int kNear = kSmallPart;  // samples across and down that tell what a single one shows
+constexpr int kNear = kSmallPart;  // samples across and down that are compared for a single one
 constexpr int kMargin = 2;         // a block is compared with so much of its neighbourhood
 static_assert(kBlock + 2 * kMargin == kLargePart);
 constexpr float kUnlike = 12;  // cost of a sample's difference from the neighbours' vectors: noise moves nothing
@@ -59,7 +59,7 @@ class BlockSearch {
     return vectors_[static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) + static_cast<std::size_t>(i)];
   }
 
-  // The best of its own vector, the neighbours' and none; then steps from it, ever shorter.
+  // Chooses the best of its own vector, the neighbours' and zero; then searches around it in ever shorter steps.
   void improve(int i, int j, int least_quarters) {
     Motion best = of(i, j);
     int cost = costOf(i, j, best, kHighest);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A source that is replaced or closed is destroyed outside of the lock: that joins threads, and may ask a server.
+// A replaced or closed source is destroyed outside the lock, since that joins threads and may wait for a server.
 #include "app/media/pairs/open_sources.h"
 
 #include <utility>

@@ -99,7 +99,7 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   return describe(first, *look, color_ahead[0], stream);
 }
 
-// What the tags of the depth's track and container say.
+// Reads the tags of the depth's track and container.
 void PairReader::Impl::takeTags(const StreamInfo& stream) {
   clues.tags = stream.tags;  // the track's tags override the container's
   const auto& container_tags = sources.depth() ? sources.depth()->tags() : sources.color()->source().tags();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seeks in a film, and goes on with it after its source was lost.
+// Seeks in a film, and resumes it after its source was lost.
 #include <utility>
 
 #include "app/media/pairs/pair_film.h"

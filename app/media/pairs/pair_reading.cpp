@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kAllGray = 0.99;
 
-// True if the name of the file or of its folder says that it is depth.
+// True if the name of the file or of its folder has a word for depth.
 bool namesDepth(const std::string& url) {
   return saysDepth(url) || saysDisparity(url) || saysDepth(url.substr(0, url.rfind('/')));
 }
@@ -56,7 +56,7 @@ CalibrationSettings redAsLuma(const Frame& picture) {
 
 }  // namespace
 
-// What was said, and what the place of the recording tells.
+// Collects what the user has stated, and what the recording's folder and files show.
 void PairReader::Impl::lookAround() {
   const MediaSource& source = sources.color()->source();
   clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
@@ -101,7 +101,7 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
   return plan;
 }
 
-// If nobody has said where the depth is and there is only one track, the picture itself may show it.
+// If nothing states where the depth is and there is only one track, the picture itself may show it.
 void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_beside.stream != nullptr || isPacked())
     return;
@@ -153,7 +153,7 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   return depth->peek();
 }
 
-// The first depth picture of a stated kind, whose order a reader of pictures may have made already.
+// Returns the first depth picture of a stated kind; its reader may already have put the samples in order.
 Result<const Frame*> PairReader::Impl::firstAsStated(const Frame& first) {
   if (options.as == nullptr || reordering.order != SampleOrder::Swapped) return &first;
   auto stored = inOrder(first, SampleOrder::Swapped);  // back

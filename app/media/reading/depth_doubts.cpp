@@ -46,7 +46,7 @@ struct Relief {
   }
 };
 
-// The option for codes that are distances although they were said to be shades.
+// The option for codes that are distances although they were stated to be brightness.
 std::string likelyKind(const Frame& depth, const DepthCalibration& calibration) {
   if (calibration.unit_mm || calibration.code != DepthCode::Luma) return kRange;
   const KnownKind* const kind = sensorKind(depth, CodeCount(depth));
@@ -96,7 +96,7 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
       100 * colored);
 }
 
-// Holes around a thing lie as its outline does in the colour; a view has none.
+// Holes around an object follow its outline in the colour; a view has no such holes.
 bool hasManyHoles(const Frame& depth, const DepthCalibration& calibration) {
   constexpr double kMany = 0.1;
   return !calibration.invalid.empty() && CodeCount(depth).share(calibration.invalid) > kMany;

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// What was said about the codes themselves, above what names and pictures show.
+// What was stated about the codes themselves; it overrides what names and pictures show.
 CalibrationLayers saidLayers(const DepthClues& clues) {
   CalibrationLayers layers;
   layers.command_line = clues.command_line;
@@ -79,7 +79,7 @@ void fitHoles(CalibrationSettings& settings, int bits) {
   }
 }
 
-// Adds the kind's own settings, and those that were read beside the recording, each in the layer of who said them.
+// Adds the kind's own settings, and those read beside the recording, each to the layer of its origin.
 HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayers& layers) {
   if (kind == nullptr) return {};
   if (clues.as != nullptr) layers.stated_kind = settingsOf(*clues.as);
@@ -107,7 +107,7 @@ bool isAssumedNearHigh(const CalibrationChoice& choice) {
   });
 }
 
-// Gray or bytes of a code, not coded with loss, that a name says are disparities.
+// Gray, or bytes of a code, without lossy coding, whose name says disparity.
 bool isNamedDisparity(const DepthClues& clues, const Frame& look) {
   return clues.code == DepthCode::Luma && look.model != ColorModel::Yuv && !definesCodes(saidLayers(clues)) &&
          saysDisparity(clues.path);
@@ -117,7 +117,7 @@ bool isOfSintel(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("sintel-disparity");
 }
 
-// The name says that near is bright and 1/distance; only the codes in use are read off the picture.
+// The name says that near is bright and codes are 1/distance; only the range of codes is read from the picture.
 DepthReading readNamedDisparity(const Frame& look, const CodeCount& count, CalibrationLayers& layers) {
   DepthReading read = readFloats(look, count, true, layers);
   for (const char* key : {"law", "polarity"}) {
@@ -135,7 +135,7 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   return count;
 }
 
-// What the pictures themselves say, as the clues ask; `layers` may get what they mean.
+// Reads the pictures as the clues require; may add what they show to `layers`.
 DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                           std::span<const Frame> later, const HueSpan& span, CalibrationLayers& layers) {
   DepthReading read;
@@ -147,7 +147,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
-    read.offer = otherEnd(layers);  // an entry of a colour map says nothing of its own
+    read.offer = otherEnd(layers);  // an entry of a colour map has no meaning by itself
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, countOf(look, later), *clues.place.camera);
   } else if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {

@@ -20,7 +20,7 @@ constexpr std::uint32_t kStretched = 0xc000;
 constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
 constexpr double kNotRaw = 0.002;
 
-// Whoever knows the unit of a recording finds the option.
+// For users who know the unit of a recording.
 constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,invalid=0";
 
 constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
@@ -130,7 +130,7 @@ DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   return reading;
 }
 
-// Nothing tells distances from heights if no sample is a hole.
+// If no sample is a hole, distances cannot be distinguished from heights.
 std::string otherEnd(const CodeCount& count) {
   return count.share(0, 0) + count.share(kTop, kTop) > 0 ? "" : "if high codes are near (heights): --as heights";
 }
@@ -243,7 +243,7 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
       reading.offer = both(reading.offer, offerMillimetres(depth, count, said));
       if (!reading.settings.empty() || depth.model != ColorModel::Yuv) return reading;
     }
-    // Only the near end was said, not by the film's maker, who would have told the holes too.
+    // Only the near end was stated, and not by the film's maker, who would have stated the holes too.
     const bool shades =
         said.command_line.contains("polarity") && said.tags.empty() && !says(said, {"unit", "law", "codes"});
     return depth.model == ColorModel::Yuv || shades ? readShades(depth, count, said) : DepthReading{};

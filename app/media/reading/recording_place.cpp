@@ -193,7 +193,7 @@ bool hasView(const fs::path& path, const fs::path& folder, const char* dispariti
   return path.stem() == disparities && path.extension() == ".png" && isRegularFile(folder / view);
 }
 
-// Middlebury's calib.txt. Its cameras count where the name says that the numbers are disparities, or --as says it.
+// Middlebury's calib.txt. Its cameras are used if the name or --as says that the numbers are disparities.
 // The pictures of 2005 and 2006 are all of one pair of cameras; those of 2001 and 2003 are of unknown ones.
 void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlace& place) {
   const fs::path file = folder / "calib.txt";

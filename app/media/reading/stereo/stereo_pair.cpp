@@ -15,7 +15,7 @@ constexpr int kFarthest = kCols / 7;    // shift in the reduced picture
 constexpr double kTexture = 0.02;       // least standard deviation in a block, of full scale
 constexpr double kAlike = 0.85;         // correlation of a block that was found
 constexpr double kFound = 0.6;          // share of the blocks in a stereo pair; of colour and depth 0.15
-constexpr int kLeastBlocks = 12;        // a picture with less texture tells nothing
+constexpr int kLeastBlocks = 12;        // a picture with less texture cannot be judged
 
 using Reduced = std::vector<double>;
 
@@ -66,7 +66,7 @@ Moments momentsOf(const Reduced& a, int c0, int r0) {
   return {mean, std::sqrt(std::max(0.0, squares / kCount - mean * mean))};
 }
 
-// The standard deviation of what a plane leaves over: a mere slope is no texture.
+// The standard deviation from a fitted plane: a mere slope is no texture.
 double textureOf(const Reduced& a, int c0, int r0, const Moments& moments) {
   constexpr double kMiddle = 0.5 * (kBlock - 1), kSpread = (kBlock * kBlock - 1) / 12.0, kCount = kBlock * kBlock;
   double across = 0, down = 0;
