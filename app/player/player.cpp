@@ -49,7 +49,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
 }
 
 Player::~Player() {
-  film_.stop();  // its reader may be about to tell of depth
+  film_.stop();  // its reader may be about to call `hear`
   touch_.stop();
   parts_.display.hearMouse({});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the player tells: on the screen, in the terminal, to programs and in the report.
+// The player's output: on the screen, in the terminal, to programs and in the report.
 #include <algorithm>
 #include <cstddef>
 #include <glm/geometric.hpp>

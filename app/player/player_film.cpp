@@ -107,7 +107,7 @@ void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) 
       return journal_.note("buffering: the source or this computer is too slow",
                            "the picture stops until enough is buffered");
     case FilmPlayback::Progress::Over:
-      if (film_.isStill() && programme_.size() == 1) return;  // a photo stands until something else is asked for
+      if (film_.isStill() && programme_.size() == 1) return;  // a photo is shown until another command
       return endFilm(now);
     case FilmPlayback::Progress::Failed:
       return failFilm();
@@ -146,7 +146,7 @@ void Player::begin(MonotonicTime now) {
   seeks_.shown(first, now, parts_.clock.now());
 }
 
-// A device that is not there, or has nothing to feel, is not spoken of.
+// Does not mention a missing device, or one without anything to feel.
 std::string Player::firstHint() const {
   const std::string help = config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, config_.held);
   std::string keys = help.empty() ? "" : help + ": all keys";

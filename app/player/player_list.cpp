@@ -14,7 +14,7 @@ void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now
   openFilm(0, Programme::Way::Forward, now);
 }
 
-// What is dropped on the window is played instead of the present film.
+// Files dropped on the window are played instead of the present film.
 void Player::followDrops(MonotonicTime now) {
   std::vector<PlaylistEntry> films;
   for (std::string& url : screen_.takeDropped()) films.push_back({.url = std::move(url), .depth_url = "", .title = ""});

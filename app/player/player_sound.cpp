@@ -56,7 +56,7 @@ void Player::mute(bool muted) {
   film_.soundOutput().setGain(loudness_.gain(), changes);
 }
 
-// What has been read ahead is of the old tracks: the film is read again from where it is. A live one goes on.
+// What was read ahead has the old tracks, so the film is read again from its present position; a live film is not.
 void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words, MonotonicTime now) {
   const FilmInfo& info = film_.info();
   if (sound && *sound >= info.sounds.size()) return;

@@ -32,7 +32,7 @@ constexpr std::array kTransitions{
     Transition{S::Opening, E::Open, S::Opening},  // another one, or the first of a list
     Transition{S::Opening, E::Opened, S::Buffering},
     Transition{S::Opening, E::Play, S::Opening},   // heard: plays when filled
-    Transition{S::Opening, E::Pause, S::Opening},  // heard: stands when filled
+    Transition{S::Opening, E::Pause, S::Opening},  // accepted: paused once filled
     Transition{S::Opening, E::Stop, S::Idle},
     Transition{S::Opening, E::Fail, S::Fault},
 
@@ -40,7 +40,7 @@ constexpr std::array kTransitions{
     Transition{S::Buffering, E::Filled, S::Playing},
     Transition{S::Buffering, E::FilledHeld, S::Paused},
     Transition{S::Buffering, E::Play, S::Buffering},   // heard: plays when filled
-    Transition{S::Buffering, E::Pause, S::Buffering},  // heard: stands when filled
+    Transition{S::Buffering, E::Pause, S::Buffering},  // accepted: paused once filled
     Transition{S::Buffering, E::Rate, S::Buffering},   // heard
     Transition{S::Buffering, E::Seek, S::Seeking},
     Transition{S::Buffering, E::EndOfFilm, S::Ended},  // sought to beyond the end

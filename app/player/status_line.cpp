@@ -44,7 +44,7 @@ std::string statusText(const ScreenFacts& facts, const PlayReport& report, const
   } else if (report.haptic.ticks > 0) {
     text += print("  force %.2f N  late ticks %llu", forces_n[0], late(report.haptic));
   }
-  // Parts that find no room are left out, the last first; a first part that finds none is cut.
+  // Parts that do not fit are left out, the last first; a first part that does not fit is cut.
   while (text.size() >= columns && text.rfind("  ") != std::string::npos) text.resize(text.rfind("  "));
   return text.substr(0, columns > 0 ? columns - 1 : 0);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is found lies in memory that the threads share: one that never comes back from a dead disk keeps it alive.
+// The results lie in memory that the threads share: a thread that never returns from a dead disk keeps it alive.
 #include "app/player/browse/film_finder.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFiles = "";  // the place of the files that were asked for
+constexpr const char* kFiles = "";  // place of the requested files
 
 class Search {
  public:

@@ -50,7 +50,7 @@ struct PosterMaker::Shared {
   [[nodiscard]] std::shared_ptr<const Poster> make(const WishedPoster& film);
   [[nodiscard]] std::shared_ptr<const Poster> find(const std::string& url) const;
 
-  PairReader reader;         // the thread's, but for `interrupt`
+  PairReader reader;         // used by the thread, except `interrupt`
   SourceOptions options;     // likewise
   mutable std::mutex mutex;  // of all below
   std::condition_variable done;
@@ -127,7 +127,7 @@ std::shared_ptr<const Poster> PosterMaker::Shared::make(const WishedPoster& film
   return poster;
 }
 
-// Ends when there is nothing to make, so that a player that plays has no thread for this.
+// Ends when there is nothing to make, so that there is no such thread while a film is played.
 void PosterMaker::Shared::threadMain() {
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
   std::unique_lock lock(mutex);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every call on a socket is one that does not wait; poll with no time to wait tells which are worth making.
+// All calls on sockets are non-blocking; poll with a timeout of 0 finds those that have something to do.
 #include "app/player/control/control_socket.h"
 
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests to the player's verbs, its answers back.
+// Passes requests to the player's commands, and its answers back.
 #include "app/player/control/player_control.h"
 
 #include <utility>

@@ -26,7 +26,7 @@ DepthAround FilmPlayback::depth() const {
   return around;
 }
 
-// Behind the playhead's few the feed may have more, whose depth is not made yet where it comes from the views.
+// The feed may have more pictures than the playhead; if depth is made from the views, theirs is not made yet.
 DepthComing FilmPlayback::coming() const {
   DepthComing coming;
   for (const FramePair& pair : head_.ahead()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film that this machine cannot decode in time: what is left out of it, and what the viewer is told.
+// A film that this machine cannot decode in time: which pictures are left out, and what is reported.
 #include "app/player/film/film_playback.h"
 
 namespace relievo {

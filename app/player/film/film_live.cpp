@@ -13,7 +13,7 @@ void FilmPlayback::hearOfAhead() noexcept {
   for (const FramePair& pair : head_.ahead()) pace_.hear(pair);
 }
 
-// The last few pictures are kept for the plan; the film goes on with the newest of them.
+// Keeps the last few pictures for the plan; the film starts with the newest of them.
 FilmPlayback::Progress FilmPlayback::fillingLive() {
   for (hearOfAhead(); head_.filled() && !pace_.settled(); hearOfAhead()) {
     head_.skip();

@@ -159,7 +159,7 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   }
   if (!dry_since_) dry_since_ = now;
   const Duration patience = isLive() ? 4 * period() + kLivePatience : 2 * period();
-  // Where the decoder is too slow, stopping would help nobody: it leaves out pictures until it is in time.
+  // If the decoder is too slow, stopping would not help: it leaves out pictures until it is in time.
   if (now < *dry_since_ + patience || waitsForDecoder()) return Progress::Goes;
   dry_since_.reset();
   starved_ = true;

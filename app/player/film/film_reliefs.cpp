@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film of two views whose depth is made while it plays: the pictures to the maker, and the reliefs back to them.
+// A film whose depth is made from two views while it plays: pictures go to the maker, reliefs come back.
 #include <algorithm>
 
 #include "app/player/film/film_playback.h"
@@ -34,7 +34,7 @@ bool FilmPlayback::hasReliefs() const {
   return !head_.ahead().front().depth.empty() && made > SurfaceWindow::kAhead;
 }
 
-// The next few that are there; pictures without one of their own are passed over.
+// The next few reliefs; pictures without a relief of their own are skipped.
 void FilmPlayback::gatherReliefs(DepthAround& around) const {
   for (const FramePair& pair : head_.ahead()) {
     if (around.ahead_count == around.ahead.size()) return;

@@ -25,7 +25,7 @@ bool LivePace::settled() const noexcept {
   return arrivals_.count() >= kMost || arrivals_.keepsPace() || arrivals_.newest() <= arrivals_.period();
 }
 
-// What came while the source was opened tells nothing of its jitter.
+// What arrived while the source was opened shows nothing of its jitter.
 bool LivePace::choose() noexcept {
   if (as_it_comes_) return *as_it_comes_;
   as_it_comes_ = arrivals_.soonest() >= Duration(0);

@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 
 using Films = std::vector<std::pair<std::string, double>>;
 
-// What of the file makes sense; nothing where none is.
+// The valid part of the file; empty if there is none.
 Result<Films> load(const std::string& path) {
   Films films;
   const auto text = readWholeFile(path, FileSize::Settings, "");
@@ -99,7 +99,7 @@ void Resume::forget(const std::string& url) {
 
 void Resume::changed() {
   if (path_.empty()) return;
-  // A newer one replaces one that waits, so that there is always a place for it.
+  // A newer write replaces a waiting one, so that there is always room for it.
   files_.give(path_, [path = path_, films = films_, told = told_] {
     const auto written = write(path, films);
     if (written || std::exchange(*told, true)) return;
