@@ -47,7 +47,7 @@ std::optional<Texture> parseTexture(std::string_view text) {
   return *amplitude == 0 ? Texture{} : Texture{*amplitude, *wavelength};
 }
 
-// Sets what "key=value" says; what is wrong with it, or null.
+// Sets the value of "key=value"; returns what is wrong with it, or null.
 const char* take(std::string_view item, Material& material) {
   const std::size_t equals = item.find('=');
   if (equals == std::string_view::npos) return kForm;

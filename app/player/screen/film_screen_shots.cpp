@@ -45,7 +45,7 @@ std::string freeName(const std::string& title) {
   }
 }
 
-// What to tell of it.
+// Returns the notice for the viewer.
 std::string save(const std::string& title, const Picture::Capture& shot) {
   const std::string path = freeName(title);
   const auto written = writePng(path, shot.width, shot.height, shot.rgb);

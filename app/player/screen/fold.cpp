@@ -52,7 +52,7 @@ std::string join(const std::vector<Letter>& letters, std::size_t first, std::siz
   return text;
 }
 
-// The beginning and the end of what is left, with dots between: of a file's name both tell something.
+// The beginning and the end of the remaining letters, with dots between, since both parts of a file's name matter.
 std::string shortened(const std::vector<Letter>& letters, std::size_t first, int cells) {
   const std::size_t head = lineFrom(letters, first, cells * 2 / 3);
   int room = cells / 3 - 1;

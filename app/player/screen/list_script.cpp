@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A row: the poster, beside it the title, and under that what is known of the film.
+// A row: the poster, beside it the title, and under that the known facts about the film.
 #include "app/player/screen/list_script.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr const char* kPale = "C4C4C4";
 constexpr double kPosterLeft = kMargin + 10, kPosterTop = 5, kPosterWidth = 148, kPosterHeight = 83;
 constexpr double kTextLeft = kPosterLeft + kPosterWidth + 24;
 constexpr double kTitle = 26, kTitleLine = 31, kDetail = 22, kDetailLine = 28;
-constexpr double kRail = 8;  // the width of the bar that tells where in the list the rows are
+constexpr double kRail = 8;  // width of the scroll bar
 
 void addHeading(Script& script, const ScreenListRow& row) {
   const auto line = folded(row.title, cellsIn(script.width() - 2 * kMargin, 26), 1);

@@ -75,7 +75,7 @@ Result<Picture::Shown> Picture::show(const FingerMarks& fingers, MonotonicTime n
   if (was_away) {
     if (now < next_retry_) return Shown::NoScreen;
     next_retry_ = now + kRetryPeriod;
-    if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; it was told when it went
+    if (!display_.open(config_)) return Shown::NoScreen;  // not back yet; the loss was already reported
     display_.announce(film_);
   }
   const auto drawn = drawAndPresent(fingers);

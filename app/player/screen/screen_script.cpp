@@ -20,7 +20,7 @@ constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 
 constexpr double kPointedSize = 20, kPointedTop = kBarTop - 34;  // the time that the mouse points at
 constexpr double kGaugeTop = 280, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
 constexpr double kEdge = 30;  // of the mark for a finger beside the picture
-constexpr double kTop = 30;   // of what stands at the top of the view
+constexpr double kTop = 30;   // of the text at the top of the view
 constexpr double kGap = 10;   // between two of its parts
 
 std::vector<std::string> titleLines(const ScreenBar& bar, double width) {
@@ -41,7 +41,7 @@ void addPointed(Script& script, const ScreenBar& bar) {
   script.text(bar.pointed_time, 8, x, kPointedTop, kPointedSize, kAccent);
 }
 
-// Without its last parts where they find no room, so that the times stay whole.
+// Drops the last parts that do not fit, so that the times stay whole.
 std::string shortened(std::string times, int cells) {
   for (std::size_t end = times.rfind("   "); static_cast<int>(times.size()) > cells && end != std::string::npos;
        end = times.rfind("   ")) {
@@ -50,7 +50,7 @@ std::string shortened(std::string times, int cells) {
   return times;
 }
 
-// What finds no room beside the times is left out.
+// Parts that do not fit beside the times are left out.
 void addTimes(Script& script, const ScreenBar& bar) {
   constexpr double kFewest = 12;  // letters that are worth it
   const double inner = script.width() - 2 * kMargin;
@@ -140,7 +140,7 @@ double addNotice(Script& script, const ScreenNotice& notice) {
   return y + kGap;
 }
 
-// In the heading's line of a page that covers the film, between the heading and what stands at its right end.
+// In the heading's line of a page that covers the film, between the heading and the text at its right end.
 void addNoticeInHeading(Script& script, const ScreenNotice& notice) {
   constexpr double kSize = 28, kSides = 170, kLevel = 240;
   const double middle = 0.5 * script.width();
@@ -173,7 +173,7 @@ double addHint(Script& script, const std::string& hint, double top) {
   return y + kGap;
 }
 
-// As many lines as find room above `bottom`.
+// As many lines as fit above `bottom`.
 void addStatistics(Script& script, const ScreenRows& rows, double top, double bottom) {
   constexpr double kUsual = 160, kLine = 28, kSize = 22, kLabel = 110, kBesideForce = 90;
   const double y_begin = std::max(kUsual, top);
@@ -195,7 +195,7 @@ void addStatistics(Script& script, const ScreenRows& rows, double top, double bo
   }
 }
 
-// What stands over a film, from the top down.
+// The texts over a film, from the top down.
 void addTop(Script& script, const ScreenContent& content, double bottom) {
   double top = kTop;
   if (content.notice) top = addNotice(script, *content.notice);

@@ -72,7 +72,7 @@ void Sound::follow(bool plays, MediaClock& clock, FilmFeed& feed) {
   clock.steer(run_ ? run_->steering : 1.0, now);
 }
 
-// Takes what is near enough to be written, and drops what is over.
+// Takes the sound that will be written soon, and drops what is past.
 void Sound::collect(MediaTime position, FilmFeed& feed) {
   const std::int64_t behind = window_->frameAt(position - kWindowBehind);
   const std::int64_t ahead = window_->frameAt(position + kWindowAhead);
@@ -121,7 +121,7 @@ MediaTime Sound::end() const noexcept {
   return sounds ? window_->timeOf(window_->end()) + delay_ : MediaTime{};
 }
 
-// False when it has to be started anew, or is over.
+// False if the sound has to be restarted, or is over.
 bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
   if (now < run_->next_reading) return true;
   run_->next_reading = now + kReadingPeriod;

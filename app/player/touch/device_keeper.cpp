@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that is not there now may be in a second: its reason is told once, and it is tried again.
+// A missing device may appear within a second: its reason is reported once, and it is tried again.
 #include "app/player/touch/device_keeper.h"
 
 #include <cstring>

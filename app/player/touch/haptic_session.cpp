@@ -68,7 +68,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   const double scale = WorkspaceMapping(capabilities_, volume).scale();
   const double own = held.stiffness_n_per_mm / scale;
   const HeldScale places = inScene(scaleHeldBy(material_scale, material, most, most_n), scale);
-  // The limits know one stiffness: the highest.
+  // The limits use one stiffness, the highest.
   const double stiffness =
       places.stiffness_n_per_mm ? std::max(own, std::min(*places.stiffness_n_per_mm, places.most_n_per_mm)) : own;
   TouchPlan plan = planFilm(std::span(first.frames).first(static_cast<std::size_t>(first.count)), ahead);

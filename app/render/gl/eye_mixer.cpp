@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pass over the surface that takes each pixel from the eye, or from both, as the layout says.
+// One pass over the surface that takes each pixel from one eye or both, depending on the layout.
 #include "app/render/gl/eye_mixer.h"
 
 #include <glm/gtc/type_ptr.hpp>

@@ -17,7 +17,7 @@ double eyesOf(const StereoSettings& stereo) noexcept {
   return std::abs(stereo.strength * stereo.eye_distance_mm);
 }
 
-// Something of one height or less, as it lies in the screen plane, seen from between the eyes.
+// Something of a height or lower, as it appears in the screen plane from midway between the eyes.
 struct Seen {
   double left = std::numeric_limits<double>::infinity(), right = kFarthest;
   double bottom = std::numeric_limits<double>::infinity(), top = kFarthest;
@@ -37,7 +37,7 @@ struct Seen {
   }
 };
 
-// How near what is seen stands, and how far from the words.
+// The height of what is seen, and its distance from the words.
 class Gaze {
  public:
   Gaze(const WordsBox& box, const StereoSettings& stereo, double pixels_per_mm) noexcept
@@ -91,7 +91,7 @@ class Gaze {
 
 // What the words must and should do for the next picture.
 struct WordsPlace::Needs {
-  double wished = kFarthest;  // where they stand if no picture asks for more than kStep
+  double wished = kFarthest;  // their place if no picture needs more than kStep
   // The nearest under the box, in the present picture and in those that come.
   std::array<double, ReliefAhead::kMost + 1> under{};
   std::array<int, ReliefAhead::kMost + 1> pictures{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All lines that are shown at a time stand at one depth.
+// All lines that are shown at the same time have the same depth.
 #include "app/render/gl/words/words_in_scene.h"
 
 #include <algorithm>
