@@ -102,7 +102,7 @@ class Snapper {
     }
     return around(steps, kNear);
   }
-  // What is not 0, and what lies so many strides beside it.
+  // The nonzero pixels, and those up to `reach` strides beside them.
   [[nodiscard]] cv::Mat around(const cv::Mat& marks, int reach) const {
     const int width = 2 * reach * stride_ + 1;
     cv::Mat result;

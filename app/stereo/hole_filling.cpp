@@ -110,7 +110,7 @@ class Filler {
     map_.pixels[here] = std::clamp(d, lowest_, highest_);
     slopes_[here] = slope;
   }
-  // A point at this disparity would stand before what the right eye sees there.
+  // True if a point at this disparity would hide what the right eye sees there.
   [[nodiscard]] bool isAgainstSight(int c, int r, float d) const {
     const int there = static_cast<int>(std::lround(static_cast<float>(c) - d));
     return there >= 0 && there < map_.cols && map_.from_right[map_.at(there, r)] < d - kFront;

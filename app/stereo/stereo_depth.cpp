@@ -24,7 +24,7 @@ std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, Dis
   return codes;
 }
 
-// A shot without depth lies in the middle.
+// A shot without depth gets the middle code.
 std::shared_ptr<std::vector<std::uint16_t>> flatCodes(std::size_t size) {
   return std::make_shared<std::vector<std::uint16_t>>(size, static_cast<std::uint16_t>(kHighest / 2));
 }

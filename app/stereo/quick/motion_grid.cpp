@@ -6,11 +6,11 @@
 namespace relievo {
 namespace {
 
-constexpr float kFew = 24;  // pixels of a surface that tell half as much as many
+constexpr float kFew = 24;  // pixels of a surface: with so few, its mean gets half the weight
 
 }  // namespace
 
-// One cell more on each side is there to look between.
+// One extra cell on each side, for interpolation.
 void MotionGrid::begin(int cols, int rows, float lowest, float highest) {
   cols_ = cols / kCell + 2;
   rows_ = rows / kCell + 2;

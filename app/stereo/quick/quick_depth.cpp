@@ -18,14 +18,15 @@ constexpr double kLeastFound = 0.4;  // share of the pixels that both views show
 constexpr double kOutliers = 0.005;
 constexpr double kMoved = 0.05;      // share of the pixels, at each end, that may lie elsewhere in one picture twice
 constexpr float kSamePlace = 0.25F;  // pixels of the survey
-constexpr int kVoteCols = 320;       // in which the eyes are told apart at first, as a shot has to begin
-constexpr int kClearVoteCols = 640;  // and where that does not tell
+constexpr int kVoteCols =
+    320;  // the width at which the eyes' order is first examined, since a shot has to begin quickly
+constexpr int kClearVoteCols = 640;  // the width if that is not conclusive
 constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
 constexpr double kBlackSpread = 3;  // levels
 constexpr int kLookEvery = 4;       // pictures: something may have come nearer than all before
-constexpr int kVotes = 6;           // looks of a shot that tell the eyes apart
+constexpr int kVotes = 6;           // pictures of a shot that are examined for the eyes' order
 
 // The disparity below which a share of the seen pixels lies.
 float shareBelow(std::vector<float>& seen, double share) {
@@ -67,7 +68,7 @@ bool QuickDepth::cutsTo(const ViewPicture& left) {
   return cuts_.begins(left.cols, left.rows, [&](int x, int y) { return static_cast<float>(*left.pixel(x, y)); });
 }
 
-// By the shot's first picture: turned, then lower, as what is turned lies at no one height.
+// By the shot's first picture: first the turn, then the vertical shift, which a turned view does not have.
 void QuickDepth::level(const Frame& right, ViewSize size) {
   lower_ = 0;
   turned_ = 0;

@@ -160,7 +160,7 @@ void QuickMatching::fromRowBefore(int r, bool first) {
   last_row_ = r;
 }
 
-// The least sum, between two disparities where its neighbours tell.
+// The least sum, interpolated between two disparities if its neighbours allow it.
 void QuickMatching::chooseInRow(int r) {
   least_right_.assign(static_cast<std::size_t>(map_.cols), std::numeric_limits<Cost>::max());
   std::fill_n(&map_.from_right[map_.at(0, r)], map_.cols, kNothing);
@@ -190,7 +190,7 @@ void QuickMatching::checkRow(int r) {
   }
 }
 
-// Small parts whose disparity is another than that of what surrounds them.
+// Small regions whose disparity differs from that of their surroundings.
 void QuickMatching::removeSpecks() {
   const std::size_t least = map_.size() / kSpeckOf;
   visited_.assign(map_.size(), 0);

@@ -15,7 +15,7 @@ constexpr std::uint8_t kMemory = 24;   // pictures
 constexpr int kMovingMemory = 5;       // pictures, of what comes nearer or goes away: its change is known but roughly
 constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
 constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
-constexpr int kBeside = 3;             // pixels on each side that tell which surface both views show
+constexpr int kBeside = 3;             // pixels on each side that are compared to choose a surface
 constexpr int kPlainly = 2;            // gray levels a pixel by which the other surface must fit better to be taken
 
 bool isNear(float a, float b) noexcept {
@@ -112,7 +112,7 @@ bool SteadyDisparity::showsTheSame(const DisparityMap& map, int c, int r, int dx
   return count > 0 && sum < kSameColor * count;
 }
 
-// What showsTheSame tells of a place that has not moved, of all places at once.
+// Computes showsTheSame for all pixels that have not moved, at once.
 void SteadyDisparity::findStill(const DisparityMap& map) {
   changes_.resize(map.size());
   for (std::size_t i = 0; i < map.size(); ++i) {
@@ -194,7 +194,7 @@ void SteadyDisparity::average(DisparityMap& map) {
     float *pixels = &map.pixels[map.at(0, r)], *kept = &disparity_[map.at(0, r)];
     std::uint8_t *ages = &age_[map.at(0, r)], *strays = &strays_[map.at(0, r)];
     for (int c = 0; c < map.cols; ++c, ++was, ++seen, ++pixels) {
-      int age = was->age + (*seen != 0 ? 1 : 0);  // an inferred disparity tells little
+      int age = was->age + (*seen != 0 ? 1 : 0);  // an inferred disparity is unreliable
       if (was->same) {
         const MotionGrid::Change change = towards_.at(c, r, *pixels);
         age = std::min(age, std::max(kMovingMemory, static_cast<int>(kMemory * change.stillness)));

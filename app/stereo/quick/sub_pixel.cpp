@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr int kRounds = 2;
-constexpr int kReach = 4;          // pixels around, each of which says where the surface lies
+constexpr int kReach = 4;          // pixels around, each of which votes on the surface's position
 constexpr float kWild = 12;        // levels: a misfit that counts half
 constexpr float kFlat = 2 * 81;    // squared slopes of a place without texture: 9 x 9 pixels
 constexpr int kNear = 5;           // pixels on each side whose mean is taken
@@ -73,7 +73,7 @@ void SubPixel::refine(DisparityMap& map, const ViewPicture& left, const ViewPict
   }
 }
 
-// Each pixel with what the right view has at its disparity: first what is there, then by how much it differs.
+// For each pixel, reads the right view at its disparity, and then its difference from the left view.
 void SubPixel::compare(const DisparityMap& map, int r) {
   const float* const left = &left_[map.at(0, r)];
   const float* const right = &right_[map.at(0, r)];
@@ -140,7 +140,7 @@ void SubPixel::step(DisparityMap& map) {
   }
 }
 
-// Along rows, or down columns; beside the picture's border there is nothing to take a mean of.
+// Along rows or down columns; outside the picture's border there are no neighbours.
 void SubPixel::smooth(DisparityMap& map, bool across, float surface) {
   smoothed_.resize(map.size());
   const std::ptrdiff_t stride = across ? 1 : map.cols;
