@@ -77,7 +77,7 @@ bool linkInto(const std::string& target, const std::string& nameless, Existing e
   return false;
 }
 
-// A file that has no place yet. Deleted if nobody takes it: the question that made it may be answered too late.
+// A file without a final place. Deleted if nobody takes it, since the call that created it may have timed out.
 struct Made {
   Made() = default;
   Made(const Made&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks through the libX11 that SDL has loaded: SDL 2.26 tells a screen's size in mm, not what the desktop wants.
+// Uses the libX11 that SDL has loaded, since SDL 2.26 reports a screen's size in mm, not the desktop's scale.
 #include "drivers/egl/desktop_scale.h"
 
 #include <SDL.h>

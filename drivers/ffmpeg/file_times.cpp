@@ -79,7 +79,7 @@ void FileEnd::reach(const AVFormatContext& context) noexcept {
   if (missing_ <= kWholeWithin) missing_ = Duration(0);
 }
 
-// What lies behind the last packet and is none, as long as that many bytes last on the average.
+// The time for which the bytes behind the last packet would last, at the file's mean bit rate.
 Duration FileEnd::unread() const noexcept {
   const std::int64_t rest = bytes_ - read_;
   if (read_ <= 0 || rest < kTailBytes || rest < bytes_ / 50) return Duration(0);

@@ -112,7 +112,7 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg passes over a segment of a list. Of many, the tenth, hundredth, .. are told.
+// FFmpeg skips segments of a list that it cannot open. Only the first, tenth, hundredth, .. are reported.
 void Input::tellLost(const char* part) {
   ++lost_;
   int told = 1;

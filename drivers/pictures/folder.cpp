@@ -106,7 +106,7 @@ std::vector<std::string> withoutOthers(std::vector<std::string> names, std::size
   return names;
 }
 
-// Pictures of one folder by the words in their names. Names that say neither are colour beside those that say depth.
+// Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
 void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
   std::map<Role, std::vector<std::string>> by_role;
   for (const std::string& name : names) by_role[roleOf(name)].push_back(name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells colour, depth and infrared apart by encodings and names.
+// Distinguishes colour, depth and infrared by encodings and names.
 #include "drivers/rosbag/topics.h"
 
 #include <algorithm>

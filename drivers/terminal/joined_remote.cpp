@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks one remote after the other.
+// Polls one remote after the other.
 #include "drivers/terminal/joined_remote.h"
 
 #include <utility>

@@ -76,7 +76,7 @@ struct AnsweredFile::State {
   UniqueFd fd;
   const std::string path;
   const bool regular;
-  // Whether its file system tells what the kernel has in its memory. Those that may stall do not.
+  // Whether the file system reports what the kernel has cached. Those that may stall do not.
   enum class AtOnce : std::uint8_t { Unknown, Yes, No };
   std::atomic<AtOnce> at_once = AtOnce::Unknown;
 

@@ -165,7 +165,7 @@ Result<void> AnsweredOutput::flush() {
   return state_->outcome();
 }
 
-// In pieces, so that a large film on a slow disk is not taken for one that does not answer.
+// Syncs in pieces, so that a large film on a slow disk does not time out.
 Result<void> AnsweredOutput::sync() {
   if (auto flushed = flush(); !flushed) return flushed;
   const CancelsAnswers cancels(state_->cancelled);

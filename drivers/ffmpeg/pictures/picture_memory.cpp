@@ -78,7 +78,7 @@ AVBufferRef* newBlock(std::size_t bytes) noexcept {
 void PictureMemory::serve(AVCodecContext& context) noexcept {
   context.opaque = this;
   context.get_buffer2 = getBuffer;
-#if LIBAVCODEC_VERSION_MAJOR < 60  // newer versions take it for granted
+#if LIBAVCODEC_VERSION_MAJOR < 60  // newer versions assume it
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
   context.thread_safe_callbacks = 1;
