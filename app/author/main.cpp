@@ -210,7 +210,7 @@ void addOptions(CLI::App& app, Arguments& a) {
   app.add_flag("--force", a.output.force, "Overwrite OUT if it exists");
 }
 
-// A wait for the file system that a signal has ended is an interruption like any other.
+// A file system call that was ended by a signal is reported as an interruption.
 int tellEnd(const Failure& failure, const std::string& output) {
   if (failure.error.code != ErrorCode::Cancelled) return tell(failure);
   return tell({output, {ErrorCode::Cancelled, 0, "interrupted; nothing was written"}});
@@ -252,7 +252,7 @@ int run(Arguments& a) {
   return kExitDone;
 }
 
-// Pictures are allocated and freed by several threads: in a heap of each thread's own, glibc would keep a sixth more.
+// Several threads allocate and free pictures: with a heap for each thread, glibc would use a sixth more memory.
 void shareOneHeap() {
 #ifdef M_ARENA_MAX
   mallopt(M_ARENA_MAX, 1);

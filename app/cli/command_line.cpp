@@ -99,7 +99,7 @@ bool tellWrongValue(const CLI::App& program, const std::string& what) {
   return true;
 }
 
-// The command that the words name, before they are parsed.
+// The command that the words name, found before they are parsed.
 const CLI::App* commandIn(const CLI::App& program, std::span<const char* const> words) {
   const CLI::App* command = &program;
   for (const char* const word : words) {

@@ -95,7 +95,7 @@ std::vector<std::string> partsOf(std::string_view line, std::string_view around)
   return parts;
 }
 
-// What a line of a list may name.
+// The names in one line of a list.
 std::vector<std::string> namesIn(const std::string& line, ListKind kind) {
   if (kind == ListKind::Dash) return partsOf(line, "<>\"'");
   if (kind == ListKind::Ffconcat) {
@@ -148,7 +148,7 @@ void addFiles(const std::string& address, int depth, std::vector<std::string>& f
   if (const auto series = numbered(name.filename().string())) addSeries(folderOf(name), *series, files);
 }
 
-// What is read with a film because of its name.
+// Adds files that are read with a film because of its name.
 void addBeside(const std::string& film, std::vector<std::string>& files) {
   if (film.empty()) return;
   if (const std::string camera = lookAtPlace(film, "").file; !camera.empty()) files.push_back(camera);

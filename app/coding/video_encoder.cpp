@@ -92,9 +92,9 @@ void set(AVCodecContext& codec, const char* key, const std::string& value) {
   av_opt_set(codec.priv_data, key, value.c_str(), 0);
 }
 
-// Slices are encoded at the same time without a picture more in memory; their number shapes the stream, so it is fixed.
+// Slices are encoded in parallel without buffering more pictures; their number affects the stream, so it is fixed.
 constexpr const char* kQuick = ":sliced-threads=1:threads=4:ref=1:bframes=2:b-pyramid=none:weightp=0";
-// A depth's predictions gain from a search as careful as that of "medium"; in colour it costs more than it gives.
+// Depth compresses better with the careful search of "medium"; for colour it costs more than it gains.
 constexpr const char* kQuickDepth = ":rc-lookahead=4:trellis=0:subme=6:partitions=i8x8,i4x4";
 constexpr const char* kQuickColor = ":rc-lookahead=3:trellis=1";
 // The crf with which a depth is as exact as "medium" makes it with the given one, and colour nearly so.

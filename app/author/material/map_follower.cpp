@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strings the motions of the pictures together.
+// Adds up the motions from picture to picture.
 #include "app/author/material/map_follower.h"
 
 #include <algorithm>

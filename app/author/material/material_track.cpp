@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the maps, moves what is painted along with the film, and makes 4:2:0 pictures of the result.
+// Opens the maps, moves the painting along with the film, and makes 4:2:0 pictures of the result.
 #include "app/author/material/material_track.h"
 
 #include <algorithm>
@@ -124,7 +124,7 @@ std::vector<std::string> MaterialTrack::notes() const {
   if (!ends_at_.empty()) {
     std::string cuts;
     for (std::size_t i = 0; i < std::min(ends_at_.size(), kMostCutsTold); ++i) {
-      // Rounded down: the picture of the cut is the first one from there on.
+      // Rounded down, so that the picture at the cut is the first one that is included.
       const auto time = std::chrono::floor<std::chrono::milliseconds>(ends_at_[i].time_since_epoch());
       cuts += print("%s%.3f s", i == 0 ? "" : ", ", toSeconds(time));
     }

@@ -21,7 +21,7 @@ constexpr AVRational kNanosecond{1, 1'000'000'000};
 constexpr Duration kLongestGap = std::chrono::seconds(10);  // as the reader of files has it, see ContinuousTime
 constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for a track"};
 
-// Codecs that a transport stream, or a segment of HLS, holds for the players of this world.
+// Codecs that common players support in a transport stream or an HLS segment.
 constexpr std::array kInTransport{AV_CODEC_ID_MP1,          AV_CODEC_ID_MP2,
                                   AV_CODEC_ID_MP3,          AV_CODEC_ID_AAC,
                                   AV_CODEC_ID_AAC_LATM,     AV_CODEC_ID_AC3,
@@ -76,7 +76,7 @@ std::string describe(const AVStream& stream) {
   return text;
 }
 
-// Not what a muxer writes itself, and not the meaning of the source's depth: the film has its own.
+// Leaves out tags that a muxer writes itself, and the source's depth tags: the film has its own.
 void copyTags(AVDictionary** to, const AVDictionary* from) {
   constexpr std::array kOwn{"major_brand", "minor_version", "compatible_brands", "encoder", "DURATION"};
   const AVDictionaryEntry* entry = nullptr;
@@ -149,7 +149,8 @@ Result<void> KeptTracks::addTo(FilmPlace& film, FilmKind kind) {
   kind_ = kind;
   for (unsigned i = 0; i < file_->nb_streams; ++i) {
     AVStream& stream = *file_->streams[i];
-    stream.discard = jumps() ? AVDISCARD_DEFAULT : AVDISCARD_ALL;  // a jump is seen by all streams together
+    stream.discard =
+        jumps() ? AVDISCARD_DEFAULT : AVDISCARD_ALL;  // jumps can only be detected over all streams together
     if (!isWished(stream) || !isOfProgramme(*file_, stream.index)) continue;
     if (auto added = addStream(stream); !added) return added;
     if (copies_.contains(stream.index)) stream.discard = AVDISCARD_DEFAULT;

@@ -66,7 +66,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   return {};
 }
 
-// A map that was given, else the source's own track.
+// Uses the user's map, else the source's own material track.
 Outcome<void> Packager::planMaterial(const FramePair& pair) {
   if (!output_.paintings.empty()) {
     auto track =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// FFmpeg's decoders of text all make events of one form, which its encoders take.
+// FFmpeg's decoders of text all produce the same form of events, which its encoders accept.
 #include "app/author/package/text_subtitles.h"
 
 #include <cerrno>

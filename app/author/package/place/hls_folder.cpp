@@ -61,7 +61,7 @@ struct Apart {
   Apart(const Apart&) = delete;
   Apart& operator=(const Apart&) = delete;
 
-  // Once; from any thread.
+  // Removes the folder once; any thread.
   void remove() {
     std::error_code ignored;
     if (!folder.empty() && !removed.exchange(true)) fs::remove_all(folder, ignored);
@@ -73,7 +73,7 @@ struct Apart {
   std::optional<Error> error;
 };
 
-// Whether every file that the playlist names exists and is not empty.
+// True if every file that the playlist names exists and is not empty.
 bool namesOnlyWhatIsThere(const fs::path& playlist, const fs::path& segments) {
   std::ifstream list(playlist);
   int named = 0;

@@ -105,7 +105,7 @@ class TransportStream final : public FilmPlace {
     if (live_) avio_flush(out_);
     return out_->error >= 0;
   }
-  // 0 or FFmpeg's code of what could not be sent or written.
+  // 0, or FFmpeg's code for what could not be sent or written.
   int closeOut() noexcept {
     if (live_) return avio_closep(&out_);
     if (out_ == nullptr) return 0;
