@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kLeastPlaces = Lattice::kPlaces / 16;
 constexpr int kFits = 2;
-// A place that is off the line by more than this many medians moves by itself: 2.5 standard deviations of normal noise.
+// A place farther from the line than this many medians moves by itself: 2.5 standard deviations of normal noise.
 constexpr double kOffTheLine = 2.5 / 0.6745;
 
 struct Change {
@@ -57,19 +57,19 @@ double median(const std::vector<Change>& changes, Value&& value) {
   return *middle;
 }
 
-// Nothing if too few places can be compared, or follow the line.
+// Nullopt if too few places can be compared, or follow the line.
 std::optional<Line> commonChange(const HeightField& from, const HeightField& to) {
   std::vector<Change> changes;
   changes.reserve(Lattice::kPlaces);
   Lattice::forPlaces(from, [&](int c, int r) {
     const double before = from.heightMm(c, r), after = to.heightMm(c, r);
-    // What is painted or clipped at either end of the range does not follow. A hole fails every comparison.
+    // Values painted or clipped at either end of the range do not follow. A hole fails every comparison.
     if (std::min(before, after) > 0 && std::max(before, after) < from.depthMm()) {
       changes.push_back({before, after - before});
     }
   });
   if (static_cast<int>(changes.size()) < kLeastPlaces) return {};
-  // The first line is the level one that half of the places are above: a fit would follow what moves by itself.
+  // The first line is level at the median of all places: a fit would follow places that move by themselves.
   Line line{.shift_mm = median(changes, [](const Change& c) { return c.change_mm; })};
   for (int round = 0; round < kFits; ++round) {
     const auto off = [&](const Change& c) { return std::abs(c.change_mm - line.at(c.height_mm)); };

@@ -8,9 +8,9 @@
 namespace relievo {
 namespace {
 
-// A thing moves to and fro once a second, as a nodding head does, with the amplitude a and w = 2 pi/s. A surface that
-// is C older is off by up to a w C. A surface that is carried by C, at the rate of half a period T before, is off by up
-// to a w^2 C (T + C)/2, which is less while T + C < 2/w, a third of a second.
+// An object that moves to and fro once a second, as a nodding head does, has an amplitude a and w = 2 pi/s. A surface
+// that is C old is off by up to a w C. A surface extrapolated by C, at the rate measured half a period T earlier, is
+// off by up to a w^2 C (T + C)/2, which is less while T + C < 2/w, a third of a second.
 constexpr double kNodHz = 1;
 constexpr Duration kLongestToCarry(static_cast<Duration::rep>(1e9 / (std::numbers::pi * kNodHz)));
 

@@ -28,7 +28,7 @@ struct TimedSurface {
 // wait longer before it begins.
 struct SurfaceWindow {
   static constexpr int kBefore = 2, kAhead = 4;
-  static constexpr int kCapacity = 8;  // a reader's slots are bits of a byte
+  static constexpr int kCapacity = 8;  // a reader has one bit for each frame in a byte
   static_assert(kBefore + 1 + kAhead <= kCapacity);
   std::array<TimedSurface, kCapacity> frames{};
   int count = 0;

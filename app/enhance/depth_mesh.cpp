@@ -122,7 +122,7 @@ class Growing {
     return map_.codes[found];
   }
 
-  // On all cores. What is found stays in the order of the triangles.
+  // On all cores. The results stay in the order of the triangles.
   void measure(const std::vector<int>& triangles) {
     std::vector<Candidate> found(triangles.size());
     inBands(static_cast<int>(triangles.size()), [&](int first, int end) {
@@ -131,8 +131,8 @@ class Growing {
     std::ranges::copy_if(found, std::back_inserter(worst_), [&](const Candidate& each) { return each.error > bound_; });
   }
 
-  // A sample that is far from a triangle; `bound_` and no sample if all are within it. Of a high triangle it is the
-  // farthest in some of the rows and those beside it, and all rows are looked at only where those are within the bound:
+  // A sample that is far from a triangle; `bound_` and no sample if all are within it. For a high triangle it is the
+  // farthest in some of its rows and their neighbours; all rows are examined only if those are within the bound, since
   // the large triangles of the first rounds are soon divided.
   [[nodiscard]] Candidate farFrom(int triangle) const {
     constexpr int kRowsEnough = 48;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLines = 16;  // a cache line of samples
 
-// Where a picture's lines begin, and how its samples follow each other. Columns lie side by side, rows in a row.
+// Where a picture's lines begin, and the distance of their samples. Columns are processed side by side, rows in a row.
 struct Layout {
   int lines = 0, length = 0, cols = 0;
   bool columns = false;
@@ -77,7 +77,7 @@ class LineFits {
     }
   }
 
-  // Between the picture and the lines side by side, with steps that the compiler knows where it can.
+  // Copies between the picture and the lines side by side, with distances known at compile time where possible.
   template <class Move>
   void exchange(int first, int count, Move&& move, Rows& rows) {
     const std::ptrdiff_t begin = layout_.at(first, 0), cols = layout_.cols;

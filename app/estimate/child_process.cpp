@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shell is reaped last: as long as it is not, its number cannot be given to another group. A second shell stands
-// guard in the group: a pipe tells it that this program has ended in whatever way.
+// The shell is reaped last, since until then its process number cannot be given to another group. A second shell in the
+// group waits at a pipe that tells it when this program has ended, for whatever reason.
 #include "app/estimate/child_process.h"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kTidyUpMs = 1000;
 constexpr int kGuardsFile = 3;  // its end of the pipe
-// Nobody's child, so that no program of the command waits for it; `kill 0` is for the group.
+// Orphaned, so that no program of the command waits for it; `kill 0` is for the group.
 constexpr const char* kGuardAndCommand =
     "({ trap '' HUP INT TERM; read -r end; kill -KILL 0; } <&3 3<&- >/dev/null 2>&1 &); exec 3<&-; exec /bin/sh -c "
     "\"$1\"";
@@ -44,7 +44,7 @@ UniqueFd ours(UniqueFd fd) {
   return fd;
 }
 
-// This program's variables but for those that are set anew.
+// This program's variables, except those that are replaced.
 std::vector<std::string> environmentWith(const std::vector<std::string>& variables) {
   std::vector<std::string> all = variables;
   for (char** at = environ; *at != nullptr; ++at) {

@@ -43,14 +43,14 @@ int inPatches(double length) {
   return std::max(static_cast<int>(std::lround(length / DepthNetwork::kPatch)), 1) * DepthNetwork::kPatch;
 }
 
-// Its own size, else the user's, else the picture's shape.
+// The network's own size, else the user's, else the picture's shape.
 cv::Size inputSize(const OnnxInput& own, std::optional<std::pair<int, int>> wished, int cols, int rows) {
   const double scale = static_cast<double>(DepthNetwork::kLongSide) / std::max(cols, rows);
   const auto [wide, high] = wished.value_or(std::pair(inPatches(scale * cols), inPatches(scale * rows)));
   return {own.cols > 0 ? own.cols : wide, own.rows > 0 ? own.rows : high};
 }
 
-// As fine as the network's, in the picture's shape, and no finer than the picture.
+// The resolution of the network's output, in the picture's shape, and no finer than the picture.
 cv::Size outcomeSize(cv::Size network, int cols, int rows) {
   const double scale =
       std::min(std::max(static_cast<double>(network.width) / cols, static_cast<double>(network.height) / rows), 1.0);

@@ -65,7 +65,7 @@ class Fields {
   bool damaged_ = false;
 };
 
-// The last field of this number: what protobuf takes of several.
+// The last field of this number: if there are several, protobuf uses the last.
 Bytes messageIn(Bytes bytes, std::uint64_t number) {
   Bytes found;
   Fields fields(bytes);

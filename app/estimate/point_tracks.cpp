@@ -33,7 +33,7 @@ bool isInside(const GrayPicture& p, double x, double y) {
 
 using Patch = std::array<double, std::size_t{kAcross} * kAcross>;
 
-// Around a point, less its mean.
+// The patch around a point, minus its mean.
 Patch patchAt(const GrayPicture& p, double x, double y) {
   Patch patch{};
   double sum = 0;
@@ -91,7 +91,7 @@ double unlike(const Patch& a, const Patch& b) {
   return sum / static_cast<double>(a.size());
 }
 
-// The place in `now` that looks like it, near `from`; nullopt: none does.
+// The position in `now`, near `from`, that looks like it; nullopt if there is none.
 std::optional<Place> fitted(const Look& look, const GrayPicture& now, const Place& from) {
   Place to = from;
   const double area = look.xx * look.yy - look.xy * look.xy;

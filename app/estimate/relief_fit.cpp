@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts from medians (after Theil and Sen), goes on with Tukey's weights.
+// Starts from medians (after Theil and Sen), then uses Tukey's weights.
 #include "app/estimate/relief_fit.h"
 
 #include <algorithm>
@@ -34,8 +34,8 @@ double medianRest(const std::vector<FitSample>& samples, const ReliefFit& fit) {
   return medianOf(rests);
 }
 
-// By the slopes between each sample and the one half of all further up. Where the samples lie too flat, as many lead
-// down as up: `scale` holds. Nullopt if most lead down.
+// Fits the slopes between each sample and the one half of all samples further up. If the samples lie too flat, as many
+// slopes fall as rise: then `scale` is used. Nullopt if most fall.
 std::optional<ReliefFit> firstFit(std::vector<FitSample>& samples, double scale) {
   std::ranges::sort(samples, {}, &FitSample::height);
   const std::size_t half = samples.size() / 2;
@@ -55,7 +55,7 @@ struct Sums {
   double ee = 0, eh = 0, hh = 0;                        // of the distances from them
 };
 
-// The estimates as heights by `fit`, with the weights that their distance from it leaves them.
+// The estimates converted to heights by `fit`, weighted by their distance from it.
 Sums sumsOf(const std::vector<FitSample>& samples, const ReliefFit& fit, double reach) {
   std::vector<double> weights;
   weights.reserve(samples.size());

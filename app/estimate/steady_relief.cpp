@@ -13,11 +13,11 @@ namespace {
 constexpr int kMotionCols = 320;             // wider pictures are scaled down to look for motion
 constexpr double kLow = 0.15, kHigh = 0.85;  // of the relief: the farthest and nearest twentieth
 constexpr std::size_t kTwentieth = 20;
-constexpr double kStaying = 0.15;                      // of the points: fewer continue nothing
-constexpr int kMemory = 48;                            // pictures that a point's height is the mean of
-constexpr int kStrays = 5;                             // pictures
-constexpr double kStray = 6;                           // standard deviations
-constexpr float kNewShare = 0.25F;                     // of a picture in the mean along the motion
+constexpr double kStaying = 0.15;   // share of the points: if fewer stay, the picture does not continue the last one
+constexpr int kMemory = 48;         // pictures over which a point's height is averaged
+constexpr int kStrays = 5;          // pictures
+constexpr double kStray = 6;        // standard deviations
+constexpr float kNewShare = 0.25F;  // of a picture in the mean along the motion
 constexpr float kSameHeight = 0.06F, kSameColor = 16;  // shares of the relief, codes
 constexpr float kHighest = 65535;
 
@@ -32,7 +32,7 @@ GrayPicture grayOf(const RawPicture& picture) {
   return scaledTo(cols, rows, luma.data(), picture.cols, picture.rows);
 }
 
-// Between the samples of a map that shows the same as a picture of `cols` x `rows`, at a place of the picture.
+// Interpolates a map that shows the same view as a picture of `cols` x `rows`, at a position of the picture.
 double valueAt(const std::vector<float>& map, int map_cols, int map_rows, const TrackedPoint& place,
                const GrayPicture& gray) {
   const double x = std::clamp((place.x + 0.5) * map_cols / gray.cols - 0.5, 0.0, map_cols - 1.0);
@@ -85,7 +85,7 @@ Frame SteadyRelief::add(const RawPicture& picture, const DepthEstimate& estimate
   return grayFrame(std::move(codes), cols_, rows_);
 }
 
-// The picture decides the shot's scale and offset.
+// The first picture sets the shot's scale and offset.
 void SteadyRelief::begin(const DepthEstimate& estimate) {
   std::vector<float> values = estimate.values;
   const std::size_t far = values.size() / kTwentieth, near = values.size() - 1 - far;
@@ -100,7 +100,7 @@ void SteadyRelief::begin(const DepthEstimate& estimate) {
   tracks_.clear();
 }
 
-// Finds the estimate's scale and offset from the points; false if the picture continues nothing.
+// Finds the estimate's scale and offset from the points; false if the picture does not continue the last one.
 bool SteadyRelief::follow(const GrayPicture& gray, const DepthEstimate& estimate) {
   motion_ = before_->bytes == gray.bytes ? std::vector<Motion>(gray.size()) : motionBetween(*before_, gray);
   const std::size_t had = tracks_.points().size();
@@ -147,7 +147,7 @@ void SteadyRelief::plant(const GrayPicture& gray) {
   anchored_ = fit_.scale > 0 && textured >= kLeastSamples;
 }
 
-// A mean with the steady picture before, where that is seen to show the same.
+// Averages with the previous steady picture where that shows the same.
 void SteadyRelief::smooth(Heights& heights, const GrayPicture& gray) const {
   const float to_x = static_cast<float>(cols_) / static_cast<float>(gray.cols);
   const float to_y = static_cast<float>(rows_) / static_cast<float>(gray.rows);

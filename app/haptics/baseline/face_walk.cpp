@@ -11,7 +11,7 @@ namespace relievo {
 namespace {
 
 constexpr int kMaxSteps = 256;
-constexpr double kLeastGain = 1e-12;  // of the squared distance, mm^2: less is rounding
+constexpr double kLeastGain = 1e-12;  // mm^2 of the squared distance: a smaller gain is rounding
 
 // Which part of a triangle the closest point lies on: bit per corner that has a share in it.
 struct Closest {

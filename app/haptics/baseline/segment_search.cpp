@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relief over a segment is linear between the lines of the grid and its diagonals: it is enough to look there.
+// Over a segment, the relief is linear between the lines of the grid and its diagonals, so only these are examined.
 #include "app/haptics/baseline/segment_search.h"
 
 #include <algorithm>

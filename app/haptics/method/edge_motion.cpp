@@ -67,7 +67,7 @@ float at(const Lattice& f, int i, int j) RELIEVO_RT {
   return f[static_cast<std::size_t>(j) * kSide + static_cast<std::size_t>(i)];
 }
 
-// Whether a displacement by `way`, in pitches, explains the change. The check shifts by whole pitches and allows for
+// True if a displacement by `way`, in pitches, explains the change. The check shifts by whole pitches and allows for
 // the rounding.
 bool explains(const glm::dvec2& way, const Lattice& before, const Lattice& after) RELIEVO_RT {
   const double right = std::round(way.x), down = std::round(-way.y);
