@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pictures should be is drawn first, and kept; then all levels, on a display of the size that is shown.
+// First draws and keeps the reference pictures; then all levels, on a display of the size that is shown.
 #include "app/lab/detail/detail.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each level's film is made of the one that came from the coder.
+// Each level's film is made from the decoded one.
 #include "app/lab/detail/detail_touch.h"
 
 #include "app/lab/detail/drawn_depth.h"

@@ -41,7 +41,7 @@ class RightRow {
  private:
   void draw(float x0, float d0, float x1, float d1) {
     const float begin = x0 - d0, end = x1 - d1;
-    if (end <= begin) return;  // turned away
+    if (end <= begin) return;  // a piece seen from behind
     const int last = std::min(static_cast<int>(std::floor(end)), static_cast<int>(nearest_.size()) - 1);
     for (int x = std::max(static_cast<int>(std::ceil(begin)), 0); x <= last; ++x) {
       const float t = (static_cast<float>(x) - begin) / (end - begin), d = d0 + t * (d1 - d0);
@@ -51,7 +51,7 @@ class RightRow {
       from_[place] = x0 + t * (x1 - x0);
     }
   }
-  // What the left view does not show between two sides is filled with the colours beside its farther side.
+  // Fills what the left view does not show between two sides with the colours beside the farther side.
   void fillUnseen() {
     const std::size_t cols = nearest_.size();
     for (std::size_t c = 0; c < cols; ++c) {

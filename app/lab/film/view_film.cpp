@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-constexpr double kGrain = 3;  // levels: the widest that a camera is off
+constexpr double kGrain = 3;  // levels: the largest error of a camera
 constexpr double kHighest = 65535;
 
 std::uint32_t hashOf(std::uint32_t a, std::uint32_t b, std::uint32_t seed) {

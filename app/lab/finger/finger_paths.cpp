@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Closed, through the middle, its tightest turns as wide as any phase gives: 1.2 mm. Begins beside the middle.
+// Closed, through the middle; its phase gives the widest possible tightest turns, 1.2 mm. Begins beside the middle.
 class Lissajous {
  public:
   Lissajous(const glm::dvec2& centre, const glm::dvec2& reach) : centre_(centre), reach_(reach) {

@@ -62,7 +62,7 @@ TouchStage::TouchStage(TouchMethod& method, const Options& options)
       clock_(MonotonicTime{} + std::chrono::seconds(1)),
       started_(clock_.now()) {
   method.reset();
-  // A device of three lines has no way to fail here.
+  // The simulated handle cannot fail here.
   static_cast<void>(handle_->open() && handle_->home() && handle_->start());
   task_ = std::make_unique<HapticTask>(*handle_, *method_, clock_, options.volume, options.limits,
                                        options.stiffness_n_per_mm);

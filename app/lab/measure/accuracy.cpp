@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One film per scene and kind of depth serves all contenders.
+// One film for each scene and kind of depth is used by all contenders.
 #include "app/lab/measure/accuracy.h"
 
 #include "app/lab/film/parallel.h"

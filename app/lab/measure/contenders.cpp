@@ -29,7 +29,7 @@ constexpr MethodConfig oneWidth(double mm) {
 
 constexpr MethodConfig kOwn = with({}, {});
 constexpr bool kPlanned = true, kFixed = true, kSmoothed = true;
-constexpr const char* kBullet = "bullet";  // no name of makeMethod
+constexpr const char* kBullet = "bullet";  // not a name for makeMethod
 
 constexpr std::array kContenders{
     Contender{"relievo", "relievo", kOwn, kPlanned},

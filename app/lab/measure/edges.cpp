@@ -43,8 +43,7 @@ class Crossing {
     }
   }
 
-  // How far beyond the edge a finger swept off the floor has lost half of its force, if it had any; nothing: it holds
-  // on.
+  // How far beyond the edge a finger that is swept off the floor has lost half of its force; nullopt: it never does.
   std::optional<double> fallOff(double deep_mm) {
     constexpr double kFromMm = -10, kFullAtMm = -5, kAboveMm = 1, kStepMm = 100 * kTickS;
     double above = kAboveMm;
@@ -85,7 +84,7 @@ struct Figures {
   struct FallOff {
     double rms_mm = 0, earliest_mm = 0, latest_mm = 0;
     int held = 0;
-    // The farther of the two; the end of the way where it never fell.
+    // The larger of the two; the end of the path if the force never fell.
     [[nodiscard]] double worst() const { return held > 0 ? kFarMm : std::max(-earliest_mm, latest_mm); }
   };
   std::array<FallOff, kFingerDepthsMm.size()> fall_off;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every surface feels the same frames, which come at the same moments.
+// All surfaces get the same frames, which arrive at the same times.
 #include "app/lab/measure/latency.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr const char* kScene = "face-nodding";
 constexpr double kSegmentS = 4;
-constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand beside the frame rate
+constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements are sidebands of the frame rate
 constexpr Duration kExpectedLate = std::chrono::milliseconds(12);  // of CameraDelay{}
 constexpr std::array kRates{15, 30, 60};
 constexpr std::array kDepths{&kDepthKinds[0], &kDepthKinds[1], &kDepthKinds[3]};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One film of 12 s at a time serves all curves, so that 100 s never have to be in memory.
+// All curves use one film of 12 s at a time, so that 100 s are never in memory.
 #include "app/lab/measure/smoothness.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr const char* kScene = "face-nodding";
 constexpr double kSegmentS = 10;
 constexpr double kHighestHz = 100;      // of the tables
-constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements stand beside the frame rate
+constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements are sidebands of the frame rate
 
 struct CurveKind {
   const char* contender;

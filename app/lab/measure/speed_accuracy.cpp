@@ -101,7 +101,7 @@ class SpeedAccuracy {
     return {};
   }
 
-  // Where its accuracy is there already, only the times are new; they stand for all scenes as well.
+  // If its accuracy was measured already, only the times are added; they apply to all scenes together, too.
   void addTimed(SpeedAccuracyRow row) {
     if (auto* known = figures_.find(row)) {
       known->times = row.times;

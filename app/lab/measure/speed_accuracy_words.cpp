@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a reader takes from the charts of speed and accuracy, with the figures of this run.
+// The conclusions of the charts of speed and accuracy, with the figures of this run.
 #include <algorithm>
 #include <limits>
 
@@ -26,7 +26,7 @@ std::string told(double us) {
   return us < 100 ? print("%.2g", us) : print("%.0f", us);
 }
 
-// Where smoothing every frame does as well as relievo, and where it does not: errors over all scenes.
+// States where smoothing every frame is as exact as relievo, and where it is not: errors over all scenes.
 std::string smoothingWords(const Figures& figures) {
   std::string as_exact, less_exact;
   for (const DepthKind& depth : kDepthKinds) {

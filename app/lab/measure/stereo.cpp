@@ -29,7 +29,7 @@ double processorMs() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// The film changed in one thing; the same film stands on each axis.
+// One film of an axis, which differs from the base film in one thing; the base film is on every axis.
 struct Place {
   const char* axis;
   std::string value;

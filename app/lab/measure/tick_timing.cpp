@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Plain rounds: nothing is thrown away, since a tail is what is looked for.
+// Plain rounds without outlier removal, since the tail is of interest.
 #include "app/lab/measure/tick_timing.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ double ticksOfAFrame(const TimedPath& timed) {
   return period_s / tick_s;
 }
 
-// Larger than the caches of the machines that this runs on, but for the last level of the largest servers.
+// Larger than the caches of common machines, except the last level of the largest servers.
 class CacheSweep {
  public:
   void operator()() {

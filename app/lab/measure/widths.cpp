@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One film for each scene and kind of depth serves all widths.
+// One film for each scene and kind of depth is used by all widths.
 #include "app/lab/measure/widths.h"
 
 #include <algorithm>

@@ -73,7 +73,7 @@ std::vector<double> Spectrum::density() const {
   if (s.segments == 0) return density;
   const double scale = s.dt_s / (s.window_power * static_cast<double>(s.segments));
   for (std::size_t k = 0; k < density.size(); ++k) {
-    // Every frequency but zero and the highest stands for its negative too.
+    // Every frequency except zero and the highest also counts for its negative.
     const bool alone = k == 0 || 2 * k == s.length;
     density[k] *= scale * (alone ? 1 : 2);
   }
