@@ -2,7 +2,7 @@
 // Rays against the terrain, and planes between them.
 #include "app/lab/rival/bullet_proxy.h"
 
-// Without the library there is no such method.
+// Without the library this method does not exist.
 #if !__has_include(<BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>)
 std::unique_ptr<relievo::TouchMethod> relievo::makeBulletProxy(double /*stiffness_n_per_mm*/) {
   return nullptr;
@@ -41,8 +41,8 @@ struct Hit {
   Plane plane;
 };
 
-// The terrain's own frame is the scene's but for the height, which counts from the middle of the volume; its rows go
-// up. A sample outside the picture is a hole, and a ray meets none.
+// The terrain's frame is the scene's, except that the height counts from the middle of the volume; its rows go up. A
+// sample outside the picture is a hole, which no ray hits.
 class Terrain final : public btHeightfieldTerrainShape {
  public:
   explicit Terrain(const HeightField& like)
@@ -109,7 +109,7 @@ class Constraints {
  public:
   explicit Constraints(const Plane& first) : planes_{first} {}
 
-  // Keeps of those before only what is needed for a goal that all allow.
+  // Keeps, of the earlier planes, only those needed for a goal that all of them allow.
   glm::dvec3 goalWith(const Plane& newest, const glm::dvec3& hip) {
     const auto before = planes_;
     const auto [one, two] = std::pair(before[0], before[1]);
@@ -181,7 +181,7 @@ class BulletProxy final : public TouchMethod {
     if (last_.contact && z < ground + kLiftMm) z = ground + kLiftMm;
     return {proxy.x, proxy.y, z};
   }
-  // A ray costs by the cells that it crosses, and the surface is near most of the time.
+  // A ray's cost grows with the cells that it crosses, and the surface is usually near.
   [[nodiscard]] std::optional<Hit> rayTowards(const glm::dvec3& from, const glm::dvec3& hip) const {
     constexpr double kNearMm = 0.3;
     const double length = glm::distance(from, hip);
@@ -190,7 +190,7 @@ class BulletProxy final : public TouchMethod {
     }
     return ray(from, hip);
   }
-  // Each round goes to the goal that the planes allow, and looks from there what is between it and the finger.
+  // Each round moves to the goal that the planes allow, and casts a ray from there to the finger.
   [[nodiscard]] Touch follow(const glm::dvec3& from, const glm::dvec3& hip) const {
     auto hit = rayTowards(from, hip);
     if (!hit) return {.proxy_mm = hip};
@@ -206,9 +206,9 @@ class BulletProxy final : public TouchMethod {
       }
       proxy = goal;
       hit = rayTowards(proxy, hip);
-      // Arrived: what is below is the triangle that the goal was set by, or the place that the round has begun at.
+      // Arrived: the surface below is the triangle that set the goal, or the point where the round began.
       if (!hit || isAt(*hit, constraints.hold(hit->plane) ? goal : last.place_mm)) break;
-      // To and fro over a ridge: it is the line that both planes have in common.
+      // Alternates across a ridge: the proxy belongs on the line that both planes share.
       if (isAt(*hit, earlier.place_mm)) {
         const auto ridge = closestOn(std::array{last.plane, hit->plane}, hip);
         if (ridge && !ray(proxy, *ridge)) proxy = *ridge;

@@ -141,8 +141,8 @@ bool DepthSmoother::smooth(const HeightField& field, std::span<std::uint16_t> ou
   return hole;
 }
 
-// The means over the blocks of one line: of heights, a hole's being 0, and of what is no hole. Where the line has no
-// hole the shares are left as they were, and are not asked for.
+// The means over the blocks of one line: of heights, 0 at a hole, and of the marks of valid samples. If the line has no
+// hole, the marks are left unchanged and are not used.
 bool DepthSmoother::readLine(const HeightField& field, int row) {
   const auto length = static_cast<std::size_t>(field.cols());
   bool holed = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device, a method and nothing in between.
+// A closed loop of a device and a method alone.
 #include "app/lab/scenario/loop_onset.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 constexpr double kPushNPerKhz = 1, kOffMm = 0.2;
 constexpr double kSeconds = 2;
 
-// With dry friction or an encoder, a cycle is what is larger than two steps of the encoder; without them, a swing that
-// is larger than it began or does not get smaller.
+// With dry friction or an encoder, an oscillation is a swing larger than two steps of the encoder; without them, a
+// swing that is larger than at the start or does not decay.
 bool swings(const Swing& swing, const DeviceProfile& profile) {
   if (profile.encoder_step_mm > 0) return swing.last_mm > 2 * profile.encoder_step_mm;
   return swing.last_mm > 2.2 * kOffMm || (swing.last_mm > 1e-3 && swing.last_mm >= swing.before_mm);
@@ -33,7 +33,7 @@ Swing swingOnWall(const Challenger& challenger, const DeviceProfile& profile, do
   // Stiffer walls are stable at higher rates: the finger rests in them as deep as at 1 kHz, and does not leave them.
   const double push_n = kPushNPerKhz * profile.rate_hz / 1000;
   const glm::dvec3 above(0.1, 0.1, 20.5), rest(0.1, 0.1, 20 - push_n / stiffness);
-  // Comes in from outside, as every method wants it.
+  // Comes in from outside, as every method requires.
   static_cast<void>(feed.update({}, 0, 0, window));
   static_cast<void>(method->update(above, window, {}));
   HandLoop hand(profile, rest + glm::dvec3(0, 0, kOffMm));

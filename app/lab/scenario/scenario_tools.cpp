@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways and readings.
+// Paths of a finger, and figures of a run.
 #include "app/lab/scenario/scenario_tools.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ double degreesBetween(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-constexpr double kFelt = 0.3;  // share of the force straight up from which on a surface counts as felt
+constexpr double kFelt = 0.3;  // share of the force straight up above which the surface counts as felt
 
 double longestLostMs(std::span<const StageTick> ticks, const Relief& relief, double deep, double stiffness) {
   double longest = 0, since = -1;

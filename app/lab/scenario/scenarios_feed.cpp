@@ -38,7 +38,7 @@ Verdict frameDrop(const Challenger& challenger, bool quick) {
     comes[i] = burst > 0 ? 1e9 : toSeconds(film[i].time) + late;
     if (burst > 0) --burst;
   }
-  // Deep enough to be inside all the time.
+  // Deep enough to stay inside all the time.
   const Way finger{{0, {1.2, 0.8, 30}}, {0.2, {1.2, 0.8, 13}}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   Play play{
@@ -61,7 +61,7 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
   const Way finger{{0, rest + glm::dvec3(0, 0, 6)}, {0.2, rest}};
   const auto method = challenger.make(challenger.stiffness_n_per_mm, film);
   Play play{.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger};
-  // What should have been seen meanwhile never comes.
+  // Frames of this interval never arrive.
   play.supply = [&](std::size_t i, double t) {
     const double due = toSeconds(film[i].time);
     return due < kStops || (due >= kGoesOn - 0.001 && t >= kGoesOn);
@@ -70,7 +70,7 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
   const glm::dvec3 back = meanForce(between(ticks, kGoesOn + 0.2, kGoesOn + 0.25));
   const glm::dvec3 truth = challenger.stiffness_n_per_mm * depthOnFlat(relief, rest, kEnd);
   Judge judge;
-  // The scene that comes back may be felt from the force before on, no deeper than it was; gone it must not be.
+  // When frames return, the force may start from the one before and be no larger; it must not be gone.
   judge.atLeast(100 * glm::length(back) / (challenger.stiffness_n_per_mm * 3), kHalfIsFelt,
                 "of the force before is felt 200 ms after frames are back");
   judge.atMost(glm::length(back) / glm::length(truth) * 100, kForceNotAbove, "of the true force");
@@ -85,7 +85,7 @@ Verdict packetLoss(const Challenger& challenger, bool quick) {
   const Relief relief = [](double x, double y, double t) {
     return 18 + 0.1 * x - 0.06 * y + 2 * std::sin(2 * std::numbers::pi * 0.5 * t);
   };
-  // Every fifth frame, and the one after it, is a patchwork: blocks of 16 x 16 of nothing, of all, of anything.
+  // Every fifth frame, and the one after it, has random blocks of 16 x 16: lowest, highest or random codes.
   std::mt19937_64 random(5);  // NOLINT(bugprone-random-generator-seed): the same at every run
   const Damage damage = [&](int frame, std::vector<std::uint16_t>& codes) {
     constexpr int kBlock = 16;
@@ -114,7 +114,7 @@ Verdict packetLoss(const Challenger& challenger, bool quick) {
   const auto ticks = playThrough(
       *method,
       {.film = film, .duration_s = duration, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
-  // In a hole made by damage there is nothing to touch: it counts from when the picture is whole again, two frames.
+  // A hole made by damage has nothing to touch: the time counts from when the picture is whole again, two frames.
   Judge judge;
   judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), kDamageBack,
                "inside and nothing felt");

@@ -74,7 +74,7 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
 }
 
 Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
-  // 15 frames/s: the way from one frame to the next is long.
+  // 15 frames/s: the surface moves far from one frame to the next.
   constexpr double kCut = 8.0 / 15, kDown = kCut + 0.06, kThere = kCut + 0.15, kEnd = kCut + 0.35;
   const Relief before = plane(23, 0.15, 0), after = plane(14, -0.25, 0.1);
   const Relief relief = cutBetween(before, after, kCut - 0.001);

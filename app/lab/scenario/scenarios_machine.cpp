@@ -124,7 +124,7 @@ Verdict deviceGlitch(const Challenger& challenger, bool /*quick*/) {
   const auto ticks = playThrough(
       *method,
       {.film = film, .duration_s = kEnd, .stiffness_n_per_mm = challenger.stiffness_n_per_mm, .finger = finger});
-  // Without contact or without force to speak of.
+  // Without contact, or with hardly any force.
   double longest = 0, since = -1;
   for (const StageTick& tick : between(ticks, 0.4, kEnd)) {
     const glm::dvec3 truth = challenger.stiffness_n_per_mm *

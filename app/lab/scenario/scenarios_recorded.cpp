@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What ordinary recordings do: flicker, dropouts, passers-by, coarse steps, a camera that moves.
+// Properties of ordinary recordings: flicker, dropouts, passers-by, coarse steps, a moving camera.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@ namespace {
 constexpr glm::dvec2 kPlace{1.2, 0.8};
 constexpr const char* kPerceived = kForceDifference.origin;
 
-// So deep under a place of a relief at rest.
+// The point `depth` below a place of a relief at rest.
 glm::dvec3 under(const Relief& relief, const glm::dvec2& place, double deep_mm) {
   return glm::dvec3(place, relief(place.x, place.y, 0)) - deep_mm * normalOf(relief, place.x, place.y, 0);
 }
@@ -39,7 +39,7 @@ class RootMeanSquare {
   int count_ = 0;
 };
 
-// Scaled about the far plane and shifted, each frame by itself.
+// Each frame is scaled about the far plane and shifted by random amounts of its own.
 Relief flickering(const Relief& still, double frames_per_s, double duration_s) {
   struct Change {
     double scale, shift_mm;

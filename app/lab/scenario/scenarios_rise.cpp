@@ -40,7 +40,7 @@ Verdict riseFree(const Challenger& challenger, bool /*quick*/) {
 }
 
 Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
-  // A dome that comes from the side while it rises, and at last lies still.
+  // A dome that comes from the side while it rises, and finally is still.
   const Relief relief = [](double x, double y, double t) {
     const double moved = ramp(t, 0.3, 0.4), dx = x - 8 + 6 * moved;
     return 20 + 6 * moved - 0.01 * (dx * dx + y * y);
@@ -85,7 +85,7 @@ Verdict sweepEdge(const Challenger& challenger, bool /*quick*/) {
                                            .duration_s = 0.8,
                                            .stiffness_n_per_mm = challenger.stiffness_n_per_mm,
                                            .finger = Way{{0, {0.3, 0.4, kFinger}}}});
-  // Out by the top it is 7 mm, by the front 20: whichever way a method takes, it is not less than the top's.
+  // The way out is 7 mm by the top and 20 mm by the front: whichever a method takes, it is at least the top's.
   const double felt =
       glm::length(meanForce(between(ticks, 0.7, 0.8))) / (challenger.stiffness_n_per_mm * (kTop - kFinger));
   Judge judge;

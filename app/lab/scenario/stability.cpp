@@ -31,7 +31,7 @@ struct Onset {
   double bound = 0;
   std::optional<double> found;
 
-  // Dry friction and encoder keep a device from swinging beyond their bound, too.
+  // Dry friction and encoder also keep a device from swinging above its viscous bound.
   [[nodiscard]] double highestTried() const { return 4 * loop.viscousBound(); }
   [[nodiscard]] double shareOfBound() const { return found.value_or(highestTried()) / bound; }
 };
@@ -79,7 +79,7 @@ Outcome<void> writeOnsets(const std::string& folder, const std::vector<Onset>& o
   return table.write(folder + "/stability-onset.csv");
 }
 
-// What smoothing every frame mends of the god-object, and what it spoils.
+// States which failures of the god-object smoothing every frame repairs, and which it causes.
 std::string smoothedWords(const VerdictTable& map) {
   const auto column = [](std::string_view method) {
     return static_cast<std::size_t>(std::find(kMethods.begin(), kMethods.end(), method) - kMethods.begin());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One plain track is read as it is; anything else goes through the player's own reader.
+// A single plain track is read directly; anything else goes through the player's own reader.
 #include "app/lab/trace/depth_film.h"
 
 #include <algorithm>

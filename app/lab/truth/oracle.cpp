@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short pieces of way on a sheet, exact pieces between events on a step.
+// Short linear pieces on a sheet, exact pieces between events on a step.
 #include "app/lab/truth/oracle.h"
 
 #include <algorithm>

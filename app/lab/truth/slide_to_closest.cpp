@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-constexpr double kLongestStepMm = 0.1;   // no jump over a rise in distance into another hollow
+constexpr double kLongestStepMm = 0.1;   // short enough not to jump over a rise in distance into another hollow
 constexpr double kTrustedStepMm = 1e-5;  // so near to a minimum the distance's own rounding hides the descent
 constexpr double kRoundingMm = 1e-11;    // steps below that do not shrink any more are rounding
 constexpr double kLeastCurvature = 1e-3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shapes that are carried about, steps and cuts; and their names.
+// Shapes that move, steps and cuts; and their names.
 #include "app/lab/truth/true_surface.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Motion {
 
 template <class Shape>
 double steepestAcross(const Shape& shape) {
-  constexpr int kPerMm = 2, kRimMm = 4;  // the rim is what a slide brings in
+  constexpr int kPerMm = 2, kRimMm = 4;  // the rim becomes visible when the shape slides
   constexpr int kEndX = (static_cast<int>(TrueSurface::kVolume.width_mm) / 2 + kRimMm) * kPerMm;
   constexpr int kEndY = static_cast<int>(TrueSurface::kVolume.height_mm) / 2 * kPerMm;
   double steepest = 0;
