@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// It is paired with the colour as depth is.
+// The material is paired with the colour in the same way as the depth.
 #include "app/media/pairs/material_pictures.h"
 
 #include <utility>
 
 namespace relievo {
 
-// When the film is opened again, the track's number is a new one.
+// The track's number may change when the film is opened again.
 void MaterialPictures::select(TrackReader& source, const std::optional<StreamInfo>& track, const Duration& shift) {
   follower_.reset();
   scale_ = {};

@@ -21,7 +21,7 @@ Result<void> PairReader::Impl::passTo(MediaTime target) {
   }
 }
 
-// The colour has already been sought, and so has a depth track in the same source.
+// Call after the colour was sought, and with it a depth track of the same source.
 Result<void> PairReader::Impl::seekDepth(MediaTime target) {
   material.restart();
   if (!depth) return {};

@@ -12,7 +12,7 @@ void PairReader::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
   if (!film.sources.color() || film.live || film.key_step != Duration(0)) return;
   if (unreferenced || until) film.left_out.begin();
   film.sources.color()->leaveOutUnreferenced(unreferenced);
-  // What fails here fails again when the next picture is read.
+  // If this fails, reading the next picture fails as well and reports it.
   if (until) static_cast<void>(film.sources.color()->hurryTo(*until - film.color_shift));
 }
 
@@ -20,7 +20,7 @@ bool PairReader::waitsForSource() const noexcept {
   return impl_->sources.waitsForColor(impl_->remote ? nullptr : impl_->backends.clock);
 }
 
-// The depth of a time between the last colour picture and this one, where pictures between them were left out.
+// Depth of a time between the last colour picture and this one, if pictures between them were left out.
 std::optional<FramePair> PairReader::Impl::depthBefore(const Frame& color) {
   const Duration period = info.frame_period;
   if (!left_out.areBefore(color.pts, period)) return std::nullopt;

@@ -23,8 +23,8 @@ bool namesDepth(const std::string& url) {
   return saysDepth(url) || saysDisparity(url) || saysDepth(url.substr(0, url.rfind('/')));
 }
 
-// Numbers, the codes of a sensor, or a colour map are no colour; nor are gray, hues and a ramp of blue in a file that
-// is called depth.
+// Floating-point numbers, a sensor's codes and a colour map are depth; so are gray, hues and a ramp of blue in a file
+// whose name says depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
   if (picture.model == ColorModel::Gray && picture.components[0].bits > 8) return true;  // no photo has as many shades
@@ -37,7 +37,7 @@ bool isDepthAlone(const Frame& picture, const std::string& url) {
   return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
 }
 
-// The second source; else the first picture of a recording's depth. Empty if there is neither.
+// The second source; else the first file of a recording's depth. Empty if there is neither.
 std::string depthFileOf(const MediaSource& source, const std::string& depth_url) {
   const StreamInfo* const depth = depth_url.empty() ? findDepthTrack(source) : nullptr;
   if (depth == nullptr) return depth_url;
@@ -135,7 +135,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   clues.why.push_back(std::move(found->why));
 }
 
-// The first depth picture, its samples in order; the order may be found out only by looking at it.
+// Returns the first depth picture with its samples in order; the order may be found only from the picture itself.
 Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
   if (!first || *first == nullptr || registrar) return first;

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-constexpr Duration kLongestLine = std::chrono::seconds(10);  // that a seek into the middle of it shows
+constexpr Duration kLongestLine = std::chrono::seconds(10);  // a seek into a line of this length still shows it
 constexpr std::size_t kMostLines = 100'000;                  // of a subtitle file
 
 }  // namespace
