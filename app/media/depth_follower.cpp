@@ -78,7 +78,7 @@ Duration DepthFollower::period() const noexcept {
   return *middle;
 }
 
-// Until the frame period is known, the largest tolerance.
+// Returns the largest tolerance until the frame period is known.
 Duration DepthFollower::tolerance() const noexcept {
   return step_count_ == 0 ? kJitter : std::clamp(period() / 8, kRounding, kJitter);
 }

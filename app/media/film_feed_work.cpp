@@ -101,7 +101,7 @@ std::deque<Subtitle> FilmFeed::readWords() {
   return words;
 }
 
-// Those of a track that has been given up meanwhile are dropped.
+// Subtitles of a track that has been deselected meanwhile are dropped.
 void FilmFeed::takeWords(std::deque<Subtitle> words) {
   if (request_.tracks_due) return;
   for (Subtitle& subtitle : words) words_.push_back(std::move(subtitle));

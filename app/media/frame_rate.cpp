@@ -16,7 +16,7 @@ double value(const Ratio& ratio) noexcept {
   return ratio.known() ? static_cast<double>(ratio.num) / ratio.den : 0;
 }
 
-// Of few pictures the measured rate is as exact as the container's clock.
+// For few pictures, the measured rate is only as exact as the container's clock.
 bool agrees(double stated, double measured, Duration span) noexcept {
   const double clock = toSeconds(kRounding) / toSeconds(span);
   return stated > 0 && std::abs(measured / stated - 1) < std::max(kAgree / 4, 2 * clock);
@@ -47,7 +47,8 @@ FrameRate frameRateOf(const StreamInfo& stream, std::vector<MediaTime> times, bo
   if (longest - shortest > kRounding + std::chrono::microseconds(1)) {
     rate.lowest = 1 / toSeconds(longest);
     rate.highest = 1 / toSeconds(shortest);
-    if (!whole && stated > rate.lowest && stated < rate.highest) rate.average = stated;  // it has seen more
+    if (!whole && stated > rate.lowest && stated < rate.highest)
+      rate.average = stated;  // the container has counted more pictures
     return rate;
   }
   if (!agrees(stated, rate.average, span)) return rate;

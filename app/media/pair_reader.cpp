@@ -87,12 +87,12 @@ Result<FramePair> PairReader::Impl::pairFor(Frame color) {
   return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
 }
 
-// An error in the depth ends the depth only; just an interruption is returned to the caller.
+// An error in the depth ends only the depth; an interruption is returned to the caller.
 Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
   if (!depth || (!depth_beside.track && !sources.depth()) || own.lost) return DepthFollower::Match{};
   depth->setLive(live);
   auto match = depth->at(time);
-  if (match && own.away) return DepthFollower::Match{};  // flat, rather than the shape of another moment
+  if (match && own.away) return DepthFollower::Match{};  // flat, rather than with the relief of another moment
   if (match) return match;
   if (match.error().code == ErrorCode::Cancelled) {
     return failOn(depthUrl(), match.error());
@@ -102,7 +102,7 @@ Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
   return DepthFollower::Match{};
 }
 
-// An error in the material ends it; whatever ends the colour as well is told when the colour is read.
+// An error in the material ends only the material; if the colour is lost too, the next read of the colour reports it.
 Frame PairReader::Impl::materialAt(MediaTime time) {
   auto found = material.at(time);
   if (found) return std::move(*found);

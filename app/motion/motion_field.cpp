@@ -121,7 +121,7 @@ PicturePart around(const GrayPicture& p, int c, int r) {
           std::min(r + kReach + 1, p.rows)};
 }
 
-// A sample that has been there by chance, among those that have not.
+// Removes isolated samples: those that differ from their neighbours by chance.
 std::vector<bool> withoutIslands(const std::vector<bool>& is_new, const GrayPicture& p) {
   std::vector<bool> result = is_new;
   for (std::size_t i = 0; i < is_new.size(); ++i) {
@@ -139,7 +139,8 @@ std::vector<bool> withoutIslands(const std::vector<bool>& is_new, const GrayPict
   return result;
 }
 
-// The vector of the nine blocks around a sample that fits best over 5 x 5 samples; of equal ones the own block's.
+// Of the vectors of the nine blocks around a sample, the one that fits best over 5 x 5 samples; if equal, its own
+// block's.
 Motion bestHere(const BlockSearch& blocks, const QuarterPictures& before, const GrayPicture& now, int c, int r) {
   const Motion own = blocks.of(c / kBlock, r / kBlock);
   const PicturePart part = around(now, c, r);

@@ -76,7 +76,7 @@ std::string doubtRelief(const Frame& depth, const DepthCalibration& calibration)
                relief.at_top > relief.at_bottom ? "near" : "far", likelyKind(depth, calibration).c_str());
 }
 
-// Depth has no colours; a photo has, and a colour map.
+// Depth has no colours, unless it is a colour map.
 std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
   constexpr double kColored = 0.2, kGray = 0.99;
   if (calibration.code != DepthCode::Luma || depth.model == ColorModel::Gray) return "";

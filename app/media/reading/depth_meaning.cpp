@@ -22,7 +22,7 @@ CalibrationLayers saidLayers(const DepthClues& clues) {
   return layers;
 }
 
-// The pictures are of the form that the kind has.
+// True if the pictures have the form of the kind.
 bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   if (kind.code) return *kind.code == code;
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
@@ -44,7 +44,7 @@ bool isUnreal(const KnownKind* kind) {
   return kind != nullptr && kind->name == std::string_view("unreal");
 }
 
-// Record3D states what the whole circle of hues covers, of which a film uses a part.
+// Record3D states the range of the whole circle of hues, of which a film uses a part.
 HueSpan takeSpan(CalibrationSettings& settings) {
   HueSpan span;
   const auto take = [&settings](const char* key, double& mm) {
@@ -58,7 +58,7 @@ HueSpan takeSpan(CalibrationSettings& settings) {
   return span;
 }
 
-// Of codes and ranges of them, as CodeSet::text() writes them, those that `bits` can hold.
+// The codes and ranges in `text`, as CodeSet::text() writes them, that `bits` can hold.
 std::string heldCodes(std::string_view text, int bits) {
   const std::uint32_t top = (1u << bits) - 1;
   std::string held;
@@ -72,7 +72,7 @@ std::string heldCodes(std::string_view text, int bits) {
   return held.empty() ? "none" : held;
 }
 
-// The kinds' holes are those of 16 bits; pictures of fewer hold but some of those codes.
+// The kinds' holes are 16-bit codes; pictures of fewer bits can hold only some of them.
 void fitHoles(CalibrationSettings& settings, int bits) {
   if (const auto holes = settings.find("invalid"); holes != settings.end()) {
     holes->second = heldCodes(holes->second, bits);
@@ -95,7 +95,7 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   return span;
 }
 
-// Either end of a colour map may be near.
+// Either end of a colour map may be the near one.
 std::string otherEnd(const CalibrationLayers& layers) {
   if (layers.find("polarity") != nullptr) return "";
   return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
@@ -155,7 +155,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
     const CodeCount count = countOf(look, later);
-    const bool named = namesDisparity("", clues.path);  // else the format alone speaks for it
+    const bool named = namesDisparity("", clues.path);  // otherwise only the file format indicates it
     const bool disparity = named || (namesDisparity(clues.codec, clues.path) && !mayBeMetres(look, count));
     read = readFloats(look, count, disparity, layers);
   } else if (kind == nullptr && isNamedDisparity(clues, look)) {

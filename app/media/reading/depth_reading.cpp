@@ -15,8 +15,8 @@ constexpr std::uint32_t kTop = 0xffff;
 // A depth rendering stretched to 16 bits reaches the upper quarter of the codes; 32 m in mm, or 10 m at 5000 codes a
 // metre, do not.
 constexpr std::uint32_t kStretched = 0xc000;
-// A rendering that reaches only the upper half is told by what a sensor leaves between its hole code (0) and its
-// nearest reading: a gap.
+// A rendering that reaches only the upper half is distinguished by the gap that a sensor leaves between its hole code
+// (0) and its nearest reading.
 constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
 constexpr double kNotRaw = 0.002;
 
@@ -117,7 +117,7 @@ bool hasPlayers(const CodeCount& count) {
          reachOf(all, 1, kTop).high < kFarthest;
 }
 
-// Heights: the codes in use.
+// For heights: the range of codes.
 DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   const CodeCount valid = count.without(holes);
   if (valid.samples() == 0) return {};
@@ -148,7 +148,7 @@ std::string otherLaw(const KnownKind& kind, const CodeCount& count) {
   return "if they are disparities, 256 codes a pixel: --as kitti-disparity";
 }
 
-// What else distances may be. The relief is the same; its depth in mm is not.
+// Other units that the distances may have. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
   // Sensors leave holes, networks do not.
@@ -169,7 +169,7 @@ std::string otherKinds(const KnownKind& kind, const CodeCount& count) {
   return both(both(otherUnit(kind, count), otherLaw(kind, count)), both(otherEnd(count), kAnyUnit));
 }
 
-// Folders that look like TUM's are made by other recorders too.
+// Other recorders, too, make folders that look like TUM's.
 std::string offerMillimetres(const Frame& depth, const CodeCount& count, const CalibrationLayers& said) {
   const std::string* const unit = said.find("unit");
   if (unit == nullptr || *unit != "0.2" || said.command_line.contains("unit")) return "";
@@ -177,7 +177,7 @@ std::string offerMillimetres(const Frame& depth, const CodeCount& count, const C
   return kind != nullptr && kind->name == std::string_view("mm") ? "if a code is 1 mm: --as mm" : "";
 }
 
-// Near, far and the codes in use of codes whose meaning is known.
+// For codes whose meaning is known: reads near, far and the range of codes.
 DepthReading readReach(const CodeCount& count, const CalibrationLayers& said, const KnownKind* kind) {
   const std::string* const unit = said.find("unit");
   const std::string* const invalid = said.find("invalid");

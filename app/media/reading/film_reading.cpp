@@ -45,7 +45,7 @@ bool lists(const std::map<std::string, std::string>& tags, const char* tag, cons
   return found != tags.end() && ("," + found->second + ",").find("," + key + ",") != std::string::npos;
 }
 
-// Of distances the unit decides law and polarity.
+// For distances, the unit determines law and polarity.
 Certainty certaintyOf(const FilmReading& reading, const char* key) {
   const std::string_view word = key;
   const CalibrationPart* const unit = find(reading, "unit");

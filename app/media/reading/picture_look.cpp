@@ -20,7 +20,8 @@ constexpr double kRedAlone = 0.25, kBright = 0.9;  // hues of full saturation ar
 
 // A half is depth if nearly all its samples are gray (or vivid) and clearly fewer of the other half's are.
 constexpr double kAllGray = 0.99, kPhotoGray = 0.7;
-// A pale scene has little colour: it is the other half if the picture breaks at the seam, which no photo does there.
+// A pale scene has little colour: it is taken as the other half if the picture has a break at the seam, as no photo
+// has.
 constexpr double kPaleGray = 0.97, kSeamStep = 0.05, kSeamTimes = 3;
 constexpr double kAllVivid = 0.85, kPhotoVivid = 0.3;
 constexpr double kLeastSpread = 0.03;  // a half of one brightness is not depth
@@ -77,7 +78,7 @@ bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isRedAlone(half) && other.red <= kPhotoVivid && half.spread >= kLeastSpread;
 }
 
-// Whether `picture`, not the half beside it, is depth. `breaks`: the whole breaks between the two.
+// True if `picture`, and not the half beside it, is depth. `breaks`: the whole picture has a break between the halves.
 std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, bool breaks, Packing packing,
                                   const char* where) {
   const PictureLook half = lookAt(picture), other = lookAt(beside);

@@ -138,7 +138,7 @@ RecordingPlace named(const char* kind, const char* sign) {
   return {findKind(kind), CalibrationOrigin::Name, {}, print("the name has %s", sign)};
 }
 
-// In this order: the more particular sign first.
+// In this order: the more specific sign first.
 RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
   struct Sign {
     const char *word, *kind;
@@ -177,7 +177,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"elevation", "heights"},
   };
   if (isRawNyu(path.stem().string())) {
-    // The reader of pictures has put a PGM's bytes in order.
+    // The picture reader has already put a PGM's bytes in order.
     return named(path.extension() == ".pgm" ? "kinect-raw" : "nyu-raw", "NYU's form d-SECONDS-TICKS");
   }
   const std::string words = lowerCase(path.string());

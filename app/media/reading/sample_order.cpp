@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a picture stores the bits of its codes, and the codes put in order.
+// Finds how a picture stores the bits of its codes, and puts the codes in order.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -47,8 +47,8 @@ std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
   return partAt(frame, 0, c, r);
 }
 
-// Whether the lower byte runs on where the upper one changes by one: on a slope that is so nearly everywhere, beside a
-// colour that has nothing to do with it hardly ever.
+// True if the lower byte continues where the upper one changes by one: on a slope it does nearly everywhere, beside an
+// unrelated colour hardly ever.
 bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept {
   constexpr std::uint64_t kLeast = 32;
   constexpr int kMostStep = 64;
@@ -68,7 +68,7 @@ bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept 
       if (r > 0) compare(c, r, 0, 1);
     }
   }
-  // Of bytes that have nothing to do with each other 3 % would; the rest of a depth's are steep or edges.
+  // For unrelated bytes 3 % would; the rest of a depth's changes are steep slopes or edges.
   return carried >= kLeast && 10 * carried >= changes;
 }
 
@@ -82,7 +82,7 @@ float floatAt(const Frame& frame, int c, int r) noexcept {
   return std::bit_cast<float>(top << 24 | partAt(frame, 0, c, r) << 16 | low);
 }
 
-// Whether nearly all samples are distances, of which neighbours differ little. Of a picture with an opaque or a
+// True if nearly all samples are distances that differ little from their neighbours. In a picture with an opaque or a
 // transparent alpha none is.
 bool holdsFloats(const Frame& frame) noexcept {
   constexpr float kLeast = 0.01F, kMost = 1e5F, kAlike = 0.1F;
@@ -133,7 +133,7 @@ SampleOrder terrainOrder(const Frame& frame) noexcept {
   return terrarium == samples && (reds <= 2 || carries(frame, 0, 1)) ? SampleOrder::Terrarium : SampleOrder::AsStored;
 }
 
-// Beyond what 16 bits hold is the sky: 65535.
+// Distances that 16 bits cannot hold are the sky: 65535.
 std::uint32_t codeOf(float metres) noexcept {
   constexpr float kCodesAMetre = 250;
   return metres > 0 && metres * kCodesAMetre < static_cast<float>(kTop)

@@ -20,7 +20,7 @@ DepthReading readRange(const CodeCount& count) {
           ""};
 }
 
-// Gray that is not coded with loss and leaves codes out above 0: black is no shade but a hole.
+// For gray without lossy coding that leaves out some codes above 0: black is then a hole.
 void readBlack(const CodeCount& count, DepthReading& reading) {
   constexpr int kShades = 32;
   const std::uint32_t gap = (1u << count.bits()) / 128;
@@ -30,7 +30,8 @@ void readBlack(const CodeCount& count, DepthReading& reading) {
   reading.offer = "if black is far away: --calibration invalid=none";
 }
 
-// Of a film, where black is apart from the other shades: holes, if near is dark. Coding smears black by a few codes.
+// For a film in which black is separate from the other shades: holes, if near is dark. Coding smears black by a few
+// codes.
 std::string blackHoles(const CodeCount& count, bool full) {
   constexpr double kLeast = 0.002;
   const std::uint32_t scale = 1u << (count.bits() - 8);

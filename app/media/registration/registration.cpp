@@ -67,7 +67,7 @@ Registrar::Registrar(const Registration& registration)
       depth_lens_(registration.depth.distortion),
       color_lens_(registration.color.distortion) {}
 
-// Half the distance of a pixel's edges is measured along its row and its column.
+// Half a pixel's size, measured along its row and its column.
 void Registrar::aim(int cols, int rows) {
   if (cols_ == cols && rows_ == rows) return;
   cols_ = cols;
@@ -128,7 +128,7 @@ void Registrar::see(const Frame& depth, const RigCamera& to) {
   }
 }
 
-// By the sample's four neighbours; 0 beside a hole or the rim.
+// From the sample's four neighbours; 0 beside a hole or the rim.
 Registrar::Slope Registrar::slopeAt(std::size_t i) const noexcept {
   const auto cols = static_cast<std::size_t>(cols_);
   const std::size_t c = i % cols, r = i / cols;

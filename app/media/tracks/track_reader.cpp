@@ -182,7 +182,7 @@ void TrackReader::keep(Track& track, Packet packet) {
 }
 
 void TrackReader::leaveOutUnreferenced(bool leave_out) {
-  // It fails only where no track has been selected yet.
+  // It fails only if no track has been selected yet.
   static_cast<void>(tracks_[0].decoder->leaveOutUnreferenced(leave_out));
 }
 
@@ -202,8 +202,8 @@ Result<bool> TrackReader::hurryTo(MediaTime until) {
   return true;
 }
 
-// The time of the key frame that is now the next packet; nullopt where none lies ahead, or where pictures could not be
-// told apart by their times.
+// The time of the key frame that is now the next packet; nullopt if there is none ahead, or if pictures could not be
+// identified by their times.
 Result<std::optional<MediaTime>> TrackReader::dropBeforeKey(Track& track, MediaTime until) {
   if (track.decoder->state() != VideoDecoder::State::Open) return std::nullopt;
   const auto key = std::find_if(track.waiting.rbegin(), track.waiting.rend(), [&](const Packet& packet) {
