@@ -117,7 +117,7 @@ std::vector<std::string> Browser::places() const {
 
 void Browser::fill() {
   std::map<std::string, double> left(left_.begin(), left_.end());
-  std::map<std::string, ShelfFilm> known;  // by what they are kept by
+  std::map<std::string, ShelfFilm> known;  // by the key under which their position is kept
   std::vector<ShelfSection> sections(1, {.name = "Recent", .films = {}});
   for (const std::string& place : places()) {
     ShelfSection section{.name = nameOf(place), .films = finder_.filmsIn(place)};

@@ -31,7 +31,7 @@ class Search {
     search(place_, 0);
     return std::move(films_);
   }
-  // Why the place itself could not be read.
+  // The error if the place itself could not be read.
   [[nodiscard]] std::error_code failure() const noexcept { return failure_; }
 
  private:
@@ -120,7 +120,7 @@ void FilmFinder::look(const std::vector<std::string>& folders, const std::vector
   read(kFiles, files);
 }
 
-// A thread that hangs is left behind.
+// A thread that hangs is abandoned.
 void FilmFinder::read(const std::string& place, const std::vector<std::string>& files) {
   {
     const std::scoped_lock lock(shared_->mutex);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kNice = 5;
 
-// A picture that is not blank, not far into the film; the first one of a film without a length.
+// A picture that is not blank, a little way into the film; for a film without a length, the first one.
 std::optional<Frame> tellingPictureOf(PairReader& reader) {
   constexpr std::array kPlaces{0.1, 0.2, 0.4};
   std::optional<Frame> found;
@@ -56,9 +56,9 @@ struct PosterMaker::Shared {
   std::condition_variable done;
   std::vector<WishedPoster> wishes;
   std::deque<std::pair<std::string, std::shared_ptr<const Poster>>> made;
-  std::string at;  // the film that it is at; empty: none
+  std::string at;  // the film being read; empty: none
   std::chrono::steady_clock::time_point since;
-  bool left = false;  // it is not wished for any more
+  bool left = false;  // it is no longer requested
   bool running = false, stopping = false, news = false;
 };
 

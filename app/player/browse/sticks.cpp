@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel marks /proc/self/mountinfo as readable with priority when a mount comes or goes.
+// The kernel marks /proc/self/mountinfo as readable with priority when a mount is added or removed.
 #include "app/player/browse/sticks.h"
 
 #include <fcntl.h>

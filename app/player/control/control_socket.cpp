@@ -20,7 +20,7 @@ namespace relievo {
 namespace {
 
 constexpr const char* kTooLong = "a socket path may have at most 100 characters; choose a shorter one";
-constexpr std::size_t kMostPath = 100;  // of the 107 that fit; the rest is for the name that it has at first
+constexpr std::size_t kMostPath = 100;  // of the 107 that fit; the rest is for its first, temporary name
 
 sockaddr_un addressOf(const std::string& path) noexcept {
   sockaddr_un address{};
@@ -61,7 +61,7 @@ Outcome<std::unique_ptr<ControlSocket>> ControlSocket::listen(const std::string&
   if (path.empty() || path.size() > kMostPath) return failOn(path, {ErrorCode::InvalidArgument, 0, kTooLong});
   if (auto may = mayReplace(path); !may) return std::unexpected(may.error());
 
-  // It gets its mode before it has a name, and its name when it can be connected to.
+  // The socket gets its mode before it has its name, and its name when it accepts connections.
   const std::string first_path = path + "~";
   UniqueFd fd = newSocket();
   if (!fd.valid() || ::fchmod(fd.get(), 0600) != 0) return cannot(path);

@@ -53,7 +53,7 @@ bool isOn(KeyBoard held, std::uint16_t code) {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-// The digits from `first` on, one line each, that lead to as many tenths of the film.
+// The digits from `first` on, one line each, that seek to as many tenths of the film.
 std::size_t tenths(const std::vector<std::pair<PlayerCommand, std::string>>& lines, std::size_t first) {
   std::size_t count = 0;
   for (; first + count < lines.size(); ++count) {
@@ -66,7 +66,7 @@ std::size_t tenths(const std::vector<std::pair<PlayerCommand, std::string>>& lin
   return count;
 }
 
-// Makes the rows of the page of keys. The keys that jump to 10 %, 20 %, .. of the film share one row.
+// Makes the rows of the key page. The keys that seek to 10 %, 20 %, .. of the film share one row.
 Rows rowsOf(const std::vector<std::pair<PlayerCommand, std::string>>& lines) {
   Rows rows;
   for (std::size_t i = 0; i < lines.size();) {

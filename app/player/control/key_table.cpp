@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader of tables, and of keys.
+// Parses key tables, and interprets keys.
 #include "app/player/control/key_table.h"
 
 #include <linux/input-event-codes.h>
@@ -40,7 +40,7 @@ std::uint16_t modifierOf(std::uint16_t code) noexcept {
   return code == KEY_LEFTCTRL || code == KEY_RIGHTCTRL ? kWithCtrl : 0;
 }
 
-// The table's index for its name; nothing for what is no state.
+// The table's index for its name; nullopt if it is no state.
 std::optional<std::size_t> tableNamed(std::string_view word) {
   if (word == "always") return kPlayerStateCount;
   for (std::size_t i = 0; i < kPlayerStateCount; ++i) {

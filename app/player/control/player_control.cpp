@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-constexpr int kLinesARound = 64;  // so that a program that talks without end does not hold the film
+constexpr int kLinesARound = 64;  // so that a program that sends without end does not stop the film
 constexpr Duration kMetricsPeriod = std::chrono::seconds(1);
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Commands to deeds.
+// Converts commands to actions.
 #include "app/player/control/wishes.h"
 
 #include <algorithm>
@@ -68,7 +68,7 @@ Deeds faster(const Situation& s) {
   return s.held && rate > 1 && s.length > Duration(0) ? goOnAt(rate, s) : changeRate(rate, s);
 }
 
-// A seek arrives at the first picture from its target on.
+// A seek shows the first picture at or after its target.
 Deeds stepBack(const Situation& s) {
   if (s.rate > 1) return pause(s);
   if (!nextState(s.state, PlayerEvent::Step)) return {};
@@ -90,7 +90,7 @@ MediaTime beginOf(const Chapter& chapter) {
   return std::max(MediaTime(chapter.begin), MediaTime{});
 }
 
-// Back goes to this chapter's beginning, near that to the one before it. After the last chapter comes nothing.
+// Goes back to this chapter's beginning, or from near that to the one before. There is nothing after the last chapter.
 Deeds seekChapter(int by, const Situation& s) {
   if (s.chapters.empty()) return {note("this film has no chapters", "it plays on")};
   const MediaTime from = by < 0 ? s.here - kBeginning : s.here;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps a few depth pictures on both sides of the present one, since a cut is judged by what is around it.
+// Keeps a few depth pictures on both sides of the present one, since a cut is judged from its surroundings.
 #include "app/player/film/coming_relief.h"
 
 #include <algorithm>

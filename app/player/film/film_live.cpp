@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A live film: its pictures are shown as they come, and its clock follows what touch can have (LivePace).
+// A live film: its pictures are shown as they arrive, and its clock follows touch (LivePace).
 #include "app/player/film/film_playback.h"
 
 namespace relievo {
@@ -35,7 +35,7 @@ std::size_t FilmPlayback::advanceLive(MonotonicTime now) {
   return pictures;
 }
 
-// Once a picture, for every change of the clock is published.
+// Only once a picture, since every change of the clock is published.
 void FilmPlayback::followLive(bool picture, MonotonicTime now) {
   const auto felt = clock_.position(now);
   if (!felt) return;

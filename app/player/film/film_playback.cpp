@@ -15,8 +15,9 @@ constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
 constexpr Duration kStillStands = std::chrono::seconds(5);
-constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // a live picture is dry as soon as it is shown
-constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
+constexpr Duration kLivePatience =
+    std::chrono::milliseconds(100);  // a live film has no picture buffered as soon as one is shown
+constexpr double kRushStepS = 0.1;   // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
 
@@ -267,7 +268,7 @@ std::optional<MediaTime> FilmPlayback::placeToKeep(MonotonicTime now) const {
 
 void FilmPlayback::noteNews() {
   while (const auto news = feed_.takeNews()) {
-    if (news->kind == FilmFeed::News::Kind::ColorBack) jumped_ = true;  // should the picture have stood meanwhile
+    if (news->kind == FilmFeed::News::Kind::ColorBack) jumped_ = true;  // in case the picture had stopped meanwhile
     notes_.happened(*news);
   }
 }

@@ -14,7 +14,7 @@ void LivePace::hear(const FramePair& pair) noexcept {
   newest_ = pair.color.pts;
   origin_ = *pair.taken - pair.color.pts.time_since_epoch();
   arrivals_.add(pair.color.pts, pair.delay);
-  // What the film's own start has held up tells nothing either.
+  // Delays caused by the film's own start are not counted either.
   constexpr int kStart = 15;
   if (as_it_comes_ && ++since_choice_ == kStart) arrivals_.forgetAllBut(2);
 }
@@ -45,7 +45,7 @@ Duration LivePace::age() const noexcept {
     age = std::max(age, ahead_.frames * arrivals_.period() - ahead_.carried + kLeastLate + Arrivals::kMargin);
   }
   if (shown_count_ < kShown) return age;
-  // The oldest of many is a hitch.
+  // The oldest of many is an outlier.
   auto ages = shown_;
   std::nth_element(ages.begin(), ages.end() - 2, ages.end());
   return std::max(age, *(ages.end() - 2) - kMostBefore);
