@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes into the report, and who hears of it at once.
+// Fills the report, and calls the listener at once.
 #include "app/player/journal.h"
 
 #include "platform/log.h"

@@ -55,7 +55,7 @@ void Player::tellStatus(MonotonicTime now) {
   parts_.status->show(facts(), report(), forcesOf(touch_.marks()), now);
 }
 
-// The report is long: it is made once a second, and only to be seen.
+// The report is long: it is made once a second, and only while it is shown.
 void Player::followStatistics(MonotonicTime now) {
   if (!screen_.wantsStatistics() || !statistics_.isDue(now)) return;
   screen_.setStatistics(statistics_.rows(report(), forcesOf(screen_.fingers()), now));

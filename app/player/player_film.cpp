@@ -57,7 +57,7 @@ void Player::stepOn(MonotonicTime now) {
 void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
   if (!apply(why)) return;
   target = std::max(target, MediaTime{});
-  // The picture stays until the new one comes, and so does the surface, so that both agree.
+  // Picture and surface stay until the new picture comes, so that both agree.
   if (const auto clock = film_.clock()) touch_.feed(film_.depth(), {clock->at(now), now, 0});
   seeks_.asked(target, by_viewer, now);
   film_.seek(target, now);
@@ -192,7 +192,7 @@ void Player::redraw(const FingerMarks& fingers, MonotonicTime next_picture, Mono
   if (auto drawn = screen_.redraw(fingers, next_picture, now); !drawn) failDrawing(drawn.error());
 }
 
-// The fingers, as far as there is something to feel.
+// The finger marks, unless there is nothing to feel.
 FingerMarks Player::marks() {
   return film_.info().has_depth ? touch_.marks() : FingerMarks{};
 }

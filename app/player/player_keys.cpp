@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// In the list of films the keys of a film mean nothing.
+// In the list of films, the keys for playing a film have no effect.
 bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept {
   return state == PlayerState::Browsing && needsFilm(command.verb);
 }
@@ -53,7 +53,7 @@ void Player::obeyKey(const PlayerCommand& command, std::uint16_t code, Monotonic
   text.hideKeys();
 }
 
-// Within the display's `attend`.
+// Called within the display's `attend`.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
   if (screen_.text().showsKeys()) {
     screen_.text().turnPage(-mouse.notches);
@@ -70,7 +70,7 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   return share.has_value();
 }
 
-// While one seek is under way the mouse may move on; the last place counts.
+// While one seek is under way the mouse may move on; its last position is used.
 void Player::followMouse(MonotonicTime now) {
   constexpr double kLouder = 5;  // percent a notch of the wheel
   if (const int notches = mouse_.takeNotches(); notches != 0) obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
@@ -78,7 +78,7 @@ void Player::followMouse(MonotonicTime now) {
   if (const auto share = mouse_.takeDrag()) obey({PlayerVerb::SeekShare, *share}, now);
 }
 
-// A key that means nothing says so once. Keys that only change the meaning of others are silent.
+// A key without a meaning is reported once. Modifier keys are not reported.
 void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
   constexpr std::array<std::uint16_t, 8> kSilent{KEY_LEFTSHIFT, KEY_RIGHTSHIFT, KEY_LEFTCTRL, KEY_RIGHTCTRL,
                                                  KEY_LEFTALT,   KEY_RIGHTALT,   KEY_LEFTMETA, KEY_RIGHTMETA};

@@ -40,7 +40,7 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   film_.open(std::move(source));
 }
 
-// Zero force first; then the film and everything about it is forgotten.
+// Sets the force to zero first; then closes the film and forgets its state.
 void Player::leaveFilm(MonotonicTime now) {
   if (!film_.isOpen()) return;
   touch_.rest();
@@ -73,8 +73,8 @@ void Player::endFilm(MonotonicTime now) {
   stopFilm(now);
 }
 
-// Opens another film of the list after one that failed. A list of which a film was seen has not failed, unless its
-// films were asked for by name: then one that is missing counts.
+// Opens another film of the list after one that failed. A list of which one film was seen has not failed, unless its
+// films were named by the user: then a missing film counts.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A figure that a person can read; JSON has no word for what is not finite.
+// A figure for people; JSON cannot express values that are not finite.
 double rounded(double value, double per_unit = 1e6) {
   return std::isfinite(value) ? std::round(value * per_unit) / per_unit : 0.0;
 }
@@ -212,7 +212,7 @@ namespace {
 std::string filmText(const PlayReport& r) {
   if (r.frames_shown == 0) return print("film    no picture was shown in %.2f s\n", r.wall_s);
   const double first_ms = r.first_frame_ms.value_or(0);
-  constexpr double kNoTime = 0.005;  // a still picture, or one that was never let go on
+  constexpr double kNoTime = 0.005;  // a still picture, or one that was paused all the time
   if (r.media_s < kNoTime) return print("film    one picture stood for %.2f s, after %.0f ms\n", r.wall_s, first_ms);
   const bool chosen =
       std::ranges::find(r.states, PlayerState::Browsing) != r.states.end();  // after a while in the list

@@ -149,8 +149,8 @@ Result<void> Picture::captureFrom(const DisplaySurface& surface, const FingerMar
   return {};
 }
 
-// The television parts the two pictures as the signal says. A surface of the size of frame packing needs no signal: its
-// mode may be one that the viewer has made.
+// The television splits the two pictures as the signal says. A surface of the size of frame packing needs no signal:
+// its mode may have been set by the viewer.
 void Picture::followSignal(const DisplaySurface& surface) noexcept {
   if (std::exchange(signal_, surface.stereo) != surface.stereo && signal_ != StereoSignal::None) {
     stereo_.layout = layoutOf(signal_);
@@ -169,7 +169,7 @@ bool Picture::isBound() noexcept {
   return true;
 }
 
-// A packed frame that nothing takes was meant for a screen that shows two eyes: side by side such a one mostly can.
+// A packed frame that no display takes was meant for a screen that shows two eyes; most of those can show side by side.
 void Picture::fallBack(const DisplaySurface& surface) noexcept {
   const char* why = refusal(stereo_, surface.width, surface.height);
   if (why == nullptr) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes and words at their places.
+// Places boxes and words.
 #include "app/player/screen/screen_script.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each picture of text is drawn from a script that holds just what is shown at that moment.
+// Each text picture is drawn from a script with exactly what is shown at that moment.
 #include "app/player/screen/screen_words.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CLI11 judges the words of a configuration as it judges those of a command line.
+// CLI11 checks the words of a configuration like those of a command line.
 #include "app/player/setup/config_options.h"
 
 #include <CLI/CLI.hpp>
@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Nothing for --help and similar options, which are not settings.
+// Empty for --help and similar options, which are not settings.
 std::string keyOf(const CLI::Option& option) {
   if (!option.get_configurable()) return "";
   if (!option.get_lnames().empty()) return option.get_lnames().front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small file of numbers.
+// Reads and writes a small file of numbers.
 #include "app/player/sound/loudness.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// A damaged file counts as empty, as one that is not there.
+// A damaged file counts as empty, like a missing one.
 Result<Json> load(const std::string& path) {
   const auto text = readWholeFile(path, FileSize::Settings, "");
   if (!text && text.error().code != ErrorCode::NotFound) return std::unexpected(text.error());
@@ -24,7 +24,7 @@ Result<Json> load(const std::string& path) {
   return json.is_object() ? json : Json::object();
 }
 
-// What is kept for other devices stays.
+// Keeps the values of other devices.
 Result<void> write(const std::string& path, const std::string& device, double percent) {
   auto json = load(path);
   if (!json) return std::unexpected(json.error());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The loop between the output's position and the film's clock.
+// The control loop between the output's position and the film's clock.
 #include "app/player/sound/sound.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ constexpr Duration kWindowBehind = std::chrono::milliseconds(100);
 constexpr Duration kReadingPeriod = std::chrono::milliseconds(20);
 constexpr int kSettledAfter = 10;        // readings
 constexpr double kSmoothing = 1.0 / 16;  // of a reading, in the end
-// 200 ppm of drift are led with an offset of 1 ms; the offset halves in 3.5 s.
+// A drift of 200 ppm is corrected with an offset of 1 ms; the offset halves in 3.5 s.
 constexpr double kGainPerS = 0.2;
 constexpr double kSteeringStep = 1e-5;  // finer ones are not worth a new clock sample
 constexpr Duration kRetryPeriod = std::chrono::seconds(5);
@@ -151,7 +151,7 @@ bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
   return true;
 }
 
-// To start anew: false. An output that is no nearer after several starts is no clock.
+// False: restart. An output that is no closer after several restarts is not used as a clock.
 bool Sound::realign() {
   ++summary_.realigned;
   if (++restarts_ > kMostRestarts) {

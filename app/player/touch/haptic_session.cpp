@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the real-time side up before it starts and takes it down force first.
+// Sets up the real-time side before it starts; at the end, ends the force first.
 #include "app/player/touch/haptic_session.h"
 
 #include <malloc.h>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// The same track where the hand feels `scale` times what the scene has.
+// The same track for a hand that feels `scale` times the scene's values.
 HeldScale inScene(HeldScale places, double scale) {
   if (places.stiffness_n_per_mm) *places.stiffness_n_per_mm /= scale;
   places.most_n_per_mm /= scale;
@@ -64,7 +64,7 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   if (auto more = reducedScale(material_scale, most); !more.empty()) {
     reduced_material_ += (reduced_material_.empty() ? "" : "; ") + more;
   }
-  // What the hand feels is the mapping's scale times what the scene has.
+  // The hand feels the scene's values times the mapping's scale.
   const double scale = WorkspaceMapping(capabilities_, volume).scale();
   const double own = held.stiffness_n_per_mm / scale;
   const HeldScale places = inScene(scaleHeldBy(material_scale, material, most, most_n), scale);

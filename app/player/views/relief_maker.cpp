@@ -103,8 +103,8 @@ ReliefSummary ReliefMaker::summary() const {
   return summary_;
 }
 
-// So that those that are made lie evenly, the pictures between them get none; nor do those that would be shown before
-// it is done, else every one after them would come late as well.
+// To space the reliefs evenly, the pictures between them get none; nor do those that would be shown before theirs is
+// ready, since otherwise every following one would be late, too.
 void ReliefMaker::dropUndue() {
   const auto drop = [this] {
     jobs_.pop_front();
@@ -194,7 +194,7 @@ void ReliefMaker::adapt() {
   matcher_->setSize(sizes[size_]);
 }
 
-// The picture's, the sound's and the finger's threads go before it.
+// This thread has a lower priority than those of picture, sound and finger.
 void ReliefMaker::threadMain() {
   constexpr int kNice = 5;
   setpriority(PRIO_PROCESS, 0, kNice);  // of this thread alone

@@ -8,9 +8,9 @@ namespace relievo {
 namespace {
 
 constexpr double kShare = 0.6;       // of a picture's time
-constexpr double kSmooth = 24;       // pictures a second: more need no relief each
-constexpr double kFull = 0.9;        // of the time between two reliefs: one takes no more
-constexpr double kSpareAgain = 0.7;  // of it: less, and they come more often again
+constexpr double kSmooth = 24;       // pictures a second: if there are more, not each needs a relief
+constexpr double kFull = 0.9;        // of the time between two reliefs: making one must not take longer
+constexpr double kSpareAgain = 0.7;  // of the same time: below it, reliefs are made more often again
 constexpr double kNewest = 0.2;      // weight of the last cost
 
 }  // namespace
