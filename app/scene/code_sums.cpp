@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several codes are added at once where they lie side by side.
+// Adds several codes at once if they are adjacent.
 #include "app/scene/code_sums.h"
 
 #include <algorithm>

@@ -15,8 +15,8 @@ bool isBlack(const YuvColor& color) noexcept {
   return color.y * color.y + color.u * color.u + color.v * color.v < kNearBlack * kNearBlack;
 }
 
-// The squared distance of a colour from what a sample at an edge between two colours holds: the luma of the side that
-// it is off by `luma`, and chroma that is mixed of both.
+// The squared distance of a colour from what a sample at an edge between two colours holds: the luma of one side, from
+// which it differs by `luma`, and chroma mixed from both.
 float errorOfMixture(const YuvColor& color, float luma, const YuvColor& one, const YuvColor& other) noexcept {
   const float along_u = other.u - one.u, along_v = other.v - one.v, u = color.u - one.u, v = color.v - one.v;
   const float length = along_u * along_u + along_v * along_v;

@@ -95,7 +95,7 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
     if (!std::isnan(mean)) return mean;
   }
-  // Colours are costly: of a block with an edge every other one is read, as on a chessboard.
+  // Reading colours is costly: in a block with an edge, every other sample is read, as on a chessboard.
   const int stride = layout_ == Layout::Curve ? 2 : 1;
   double sum = 0;
   int count = 0, looked = 0;

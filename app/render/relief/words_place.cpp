@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at the triangles as drawn, since they are what the eyes see behind the words.
+// Examines the triangles as drawn, since they are what the eyes see behind the words.
 #include "app/render/relief/words_place.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ class Gaze {
  public:
   Gaze(const WordsBox& box, const StereoSettings& stereo, double pixels_per_mm) noexcept
       : stereo_(stereo), pixels_per_mm_(pixels_per_mm), box_(box) {
-    // Each eye sees the words beside where the middle sees them: what is that near to the box is under it as well.
+    // Each eye sees the words shifted from midway between the eyes: what is that near to the box counts as under it.
     const double beside_mm = 0.5 * eyesOf(stereo) * stereo.screen_z_mm / stereo.viewing_distance_mm;
     box_.left -= beside_mm, box_.right += beside_mm;
   }

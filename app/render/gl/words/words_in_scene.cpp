@@ -20,7 +20,7 @@ std::optional<WordsBox> boxOf(const TextFrame& frame, const std::vector<TextPict
   return WordsBox{left / width - 0.5, 0.5 - bottom / height, right / width - 0.5, 0.5 - top / height};
 }
 
-// Words that move, or lines that follow one another at the same place, move on in depth from where they were.
+// Moving words, or lines that follow one another at the same place, continue in depth from their last place.
 bool continues(const std::optional<WordsBox>& last, const std::optional<WordsBox>& next) noexcept {
   return last && next && last->left < next->right && next->left < last->right && last->bottom < next->top &&
          next->bottom < last->top;
