@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Least squares on the heights of the points, with Tukey's weights, from the median shift on.
+// Least squares on the vertical positions of the points, with Tukey's weights, starting from the median shift.
 #include "app/stereo/alignment.h"
 
 #include <algorithm>

@@ -39,7 +39,7 @@ int countIn(DisparityRange range) {
   return (range.highest - range.lowest + kMultiple) / kMultiple * kMultiple;
 }
 
-// Margins on both sides, in which a match may lie that the picture does not hold.
+// Adds margins on both sides, so that a match may lie outside the picture.
 cv::Mat matched(cv::StereoSGBM& matcher, const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
   const int margin = std::max({std::abs(range.lowest), std::abs(range.highest), 1}) + kMultiple;
   cv::Mat wide_left, wide_right, found;
@@ -64,7 +64,7 @@ cv::Mat matchAlone(const cv::Mat& left, const cv::Mat& right, DisparityRange ran
 
 namespace {
 
-// Without margins: what the matcher itself gives up is a hole.
+// Without margins: pixels that the matcher itself rejects are holes.
 cv::Mat asTheyAre(cv::StereoMatcher& matcher, const cv::Mat& left, const cv::Mat& right, DisparityRange range) {
   cv::Mat found, pixels;
   matcher.compute(left, right, found);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Weights by colour and distance as in adaptive support weights (Yoon and Kweon, PAMI 2006), for few candidates alone.
+// Weights by colour and distance as in adaptive support weights (Yoon and Kweon, PAMI 2006), for only a few candidates.
 #include "app/stereo/edge_snapping.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace relievo {
 namespace {
 
-constexpr int kReach = 6;  // pixels: of the neighbours that are looked at
+constexpr int kReach = 6;  // pixels: of the neighbours that are examined
 constexpr int kWidth = 2 * kReach + 1;
-constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is looked at
+constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is examined
 constexpr int kNear = 5;           // pixels: as far a step may lie from its outline
 constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
 constexpr float kColor = 12;       // levels: of a colour's likeness
 constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
-constexpr float kHidden = 10;      // levels: of a pixel that lies behind what the right eye sees at its place
+constexpr float kHidden = 10;      // levels: for a pixel that is hidden behind what the right eye sees there
 constexpr float kFront = 2.5F;     // pixels of disparity by which one is in front of the other
 constexpr float kInferred = 0.3F;  // weight of a neighbour that was not seen
 constexpr float kSupport = 0.5F;   // of the neighbours' disparities, beside how they fit the right view
@@ -130,8 +130,8 @@ class Snapper {
     }
     return found;
   }
-  // By how much what both eyes see at the place in the right view is nearer than a point at this disparity: more than
-  // 0, and it hides the point; less, and the right eye looks through the point. 0 where both eyes see no one thing.
+  // How much nearer the point that both eyes see at that place of the right view is than a point at this disparity.
+  // Above 0, it hides the point; below 0, the right eye looks through the point. 0 if there is no such point.
   [[nodiscard]] float standsInFront(int x, int r, float disparity) const {
     const float seen = map_.from_right[map_.at(x, r)];
     if (!std::isfinite(seen)) return 0;
@@ -140,9 +140,9 @@ class Snapper {
     const std::size_t there = map_.at(back, r);
     return map_.seen[there] != 0 && std::abs(map_.pixels[there] - seen) <= 1 ? seen - disparity : 0;
   }
-  // How badly one pixel of the left view fits the right view at a disparity. What lies beside a near thing's left edge
-  // is hidden from the right eye: at the near thing's disparity it would fit, since the right view shows the same wall
-  // there.
+  // How badly one pixel of the left view fits the right view at a disparity. The background at a near object's left
+  // edge is hidden from the right eye: at the object's disparity it would fit, since the right view shows the same
+  // background there.
   [[nodiscard]] float misfit(int c, int r, int whole, float rest) const {
     const int x = c - whole;
     if (x < 1 || x >= map_.cols) return kWorst;

@@ -16,7 +16,7 @@ constexpr int kLeastRun = 2;
 constexpr float kTold = 1.5F;       // times as like one side as the other
 constexpr float kLeastUnlike = 24;  // levels between the sides, of the three components together
 constexpr float kEven = 1;          // pixels of disparity: of what lies on one side
-constexpr float kMost = 0.8F;       // of the run's pixels, that are like one side
+constexpr float kMost = 0.8F;       // largest share of the run's pixels that are like one side
 
 using Color = std::array<float, 3>;
 
@@ -33,7 +33,7 @@ float between(const Color& a, const Color& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-// Whether both sides of a run were seen and are even: else the matcher's own errors look like what one eye sees alone.
+// True if both sides of a run were seen and are even: else the matcher's errors look like an area seen by one eye.
 bool hasEvenSides(const DisparityMap& map, int r, int begin, int end) {
   const std::size_t before = map.at(begin - 1, r), after = map.at(end, r);
   for (std::size_t i = 0; i < kBeside; ++i) {
@@ -59,7 +59,7 @@ void voteOnRun(const ViewPicture& view, int r, int begin, int end, EyeVotes& vot
   if (static_cast<float>(like_after) >= kMost * run) votes.swapped += static_cast<std::uint64_t>(like_after);
 }
 
-// The right view's own, in a mirror: of what the left view has as well.
+// The right view's own disparities, mirrored, for points that the left view has, too.
 DisparityMap mirroredRight(const DisparityMap& map) {
   constexpr float kAgree = 1;  // pixels
   DisparityMap result(map.cols, map.rows);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Disparities, with the slope of their surfaces, spread from the seen points along paths of like colour.
+// Disparities, with the slope of their surfaces, spread from the seen points along paths of similar colour.
 #include "app/stereo/hole_filling.h"
 
 #include <algorithm>

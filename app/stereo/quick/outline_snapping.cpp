@@ -88,7 +88,7 @@ class Enlarger {
     const float bottom = (1 - u) * small_.pixels[small_.at(i, below)] + u * small_.pixels[small_.at(right, below)];
     return (1 - v) * top + v * bottom;
   }
-  // The mean of the nearer or the farther side: of the one that more of what is near and alike belongs to.
+  // The mean of the nearer or the farther side: of the side with more pixels that are near and similar.
   [[nodiscard]] float chosen(float x, float y, std::size_t here) const {
     const int middle_x = nearest(x), middle_y = nearest(y);
     const int left = std::max(0, middle_x - kReach), right = std::min(small_.cols - 1, middle_x + kReach);

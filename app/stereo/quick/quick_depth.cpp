@@ -89,7 +89,7 @@ void QuickDepth::mirrorBoth() {
   mirror(right_);
 }
 
-// How near and far the picture reaches, by matching a small one over the widest range.
+// Finds the range of the picture's disparities by matching a small one over the widest range.
 std::optional<QuickDepth::Range> QuickDepth::reach() {
   const int cols = std::min(kSurveyCols, left_.cols), widest = std::max(1, cols / kWidest);
   const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};

@@ -19,7 +19,7 @@ struct Columns {
   int begin = 0, end = 0;
 };
 
-// How the mean brightness changes from each row to the next but one.
+// The change of the mean brightness between rows two apart.
 std::vector<double> changesDown(const ViewPicture& view, Columns columns) {
   std::vector<double> means, changes;
   for (int r = 0; r < view.rows; ++r) {
@@ -85,7 +85,7 @@ double rowShift(const ViewPicture& left, const ViewPicture& right) {
   return std::abs(found.rows) < kLeastShift ? 0 : found.rows;
 }
 
-// What turns blurs the means of rows: a little likeness is enough to try it, and much has to come of it.
+// A turn blurs the means of rows, so a low correlation suffices to try a correction, which must then raise it much.
 double turnBetween(const ViewPicture& left, const ViewPicture& right) {
   const Turn seen = findTurn(left, right);
   if (std::abs(seen.clockwise) < kLeastTurn || std::abs(seen.clockwise) > kMostTurn || seen.alike < kBlurred) return 0;

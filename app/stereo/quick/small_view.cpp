@@ -35,7 +35,7 @@ class CellSums {
               lower >> shiftOf(frame, component, frame.chroma_shift_y)),
         sums_(static_cast<std::size_t>(size.cols)) {}
 
-  // Codes in a sum.
+  // The number of codes in each sum.
   [[nodiscard]] std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(across_.taken * down_.taken); }
   // The values of the row's cells, valid until the next call.
   [[nodiscard]] const std::vector<std::uint32_t>& row(int r) {

@@ -8,11 +8,12 @@
 namespace relievo {
 namespace {
 
-constexpr int kMotionCols = 160;       // in which motion is looked for
-constexpr int kSameColor = 12;         // levels of the three components, over 3 x 3 pixels in the mean
-constexpr float kSurface = 0.75F;      // pixels of disparity between two surfaces
-constexpr std::uint8_t kMemory = 24;   // pictures
-constexpr int kMovingMemory = 5;       // pictures, of what comes nearer or goes away: its change is known but roughly
+constexpr int kMotionCols = 160;      // in which motion is looked for
+constexpr int kSameColor = 12;        // levels of the three components, over 3 x 3 pixels in the mean
+constexpr float kSurface = 0.75F;     // pixels of disparity between two surfaces
+constexpr std::uint8_t kMemory = 24;  // pictures
+constexpr int kMovingMemory =
+    5;  // pictures, for objects that come nearer or go away, whose change is known only roughly
 constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
 constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
 constexpr int kBeside = 3;             // pixels on each side that are compared to choose a surface
@@ -40,7 +41,8 @@ void SteadyDisparity::steady(DisparityMap& map, const ViewPicture& left, const V
   left_before_.swap(left_);
 }
 
-// Where it stands still, or where its neighbourhood has moved from: whichever has the surface that was found now.
+// Takes the pixel's own place if it has not moved, or the place that its neighbourhood has moved from: the one whose
+// surface was found now.
 void SteadyDisparity::follow(DisparityMap& map, const GrayPicture& now) {
   const std::vector<Motion> motion =
       before_->bytes == now.bytes ? std::vector<Motion>(now.size()) : motionBetween(*before_, now);
@@ -137,8 +139,8 @@ void SteadyDisparity::findStill(const DisparityMap& map) {
   }
 }
 
-// Another surface than before at the same thing: the one at which both views look alike. What was seen often is kept
-// longer; what moves is not kept against what was seen now, since beside its edge lies something else.
+// Another surface than before on the same object: takes the one at which both views match. A surface seen often is kept
+// longer; a moving one is not kept against a new match, since something else lies beside its edge.
 void SteadyDisparity::choose(DisparityMap& map, int c, int r, Was& was) const {
   const std::size_t i = map.at(c, r);
   if (map.seen[i] != 0) ++was.strays;
@@ -163,7 +165,7 @@ int SteadyDisparity::misfit(const DisparityMap& map, int c, int r, float dispari
   return count > 0 ? sum / count : 255;
 }
 
-// What comes nearer or goes away over an area.
+// Finds motion toward the viewer or away over an area.
 void SteadyDisparity::findChanges(const DisparityMap& map) {
   std::vector<float> least(map.pixels.begin(), map.pixels.begin() + map.cols), most = least;  // of the columns
   for (int r = 1; r < map.rows; ++r) {
