@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window hears: keys, the mouse, dropped files, the desktop.
+// The window's events: keys, the mouse, dropped files, the desktop.
 #include <linux/input-event-codes.h>
 
 #include <algorithm>
@@ -125,7 +125,7 @@ void WindowDisplay::moveMouse(int x, int y) noexcept {
   publishMouse();
 }
 
-// Where no eye sees the scene, the mouse points where it pointed last.
+// Where no eye sees the scene, the mouse keeps its last position.
 void WindowDisplay::publishMouse() noexcept {
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);

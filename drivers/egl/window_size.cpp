@@ -39,14 +39,14 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
   int left = 0, top = 0;
   SDL_GetWindowPosition(window_, &left, &top);
   SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
-  // SDL has moved the mouse to its old place in the window: back to where it is on the screen.
+  // SDL has moved the mouse to its old place in the window: moves it back to its place on the screen.
   if (SDL_GetMouseFocus() == window_) SDL_WarpMouseGlobal(left + mouse_x_, top + mouse_y_);
   const bool unanswered = fill_asked_.has_value();  // SDL may have a size that the window never got
   fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
   if (!fill && unanswered) leaveByHand();
 }
 
-// A window manager fills the screen with the window on SDL's request. Without one nobody does.
+// A window manager fills the screen with the window on SDL's request. Without one, this does it.
 void WindowDisplay::followFullScreen() {
   constexpr Duration kPatience = std::chrono::milliseconds(500);
   if (!fill_asked_ || clock_.now() < *fill_asked_ + kPatience || !makeCurrent()) return;

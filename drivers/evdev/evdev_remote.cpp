@@ -118,7 +118,7 @@ class EvdevRemote final : public RemoteInput {
     return true;
   }
 
-  // False if it was unplugged.
+  // False if the device was unplugged.
   static bool read(Remote& remote, MonotonicTime now) {
     unsigned how = LIBEVDEV_READ_FLAG_NORMAL;
     for (;;) {

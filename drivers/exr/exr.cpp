@@ -178,7 +178,7 @@ struct Choice {
   int part = 0;
   Names names;
 };
-// The first part of which `choose` takes channels.
+// The first part in which `choose` finds channels.
 template <class Choose>
 Choice choosePart(const Imf::MultiPartInputFile& file, Choose&& choose) {
   for (int i = 0; i < file.parts(); ++i) {
@@ -218,7 +218,7 @@ Choice chooseColor(const Imf::MultiPartInputFile& file) {
   }
   return choosePart(file, colorChannels);
 }
-// Channels with a name of depth in any part; else what else there is.
+// Channels in any part whose names say depth; else the other channels.
 Choice chooseDepth(const Imf::MultiPartInputFile& file) {
   const Choice named = choosePart(file, namedDepth);
   return named.names.empty() ? choosePart(file, anyDepth) : named;

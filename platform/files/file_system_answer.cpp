@@ -64,7 +64,7 @@ std::string placeOf(const std::string& path) {
   return longest.size() > 1 ? longest : path;
 }
 
-// Signals are for the program's own threads.
+// Blocks signals in helper threads: the program's own threads handle them.
 class SignalsBlocked {
  public:
   SignalsBlocked() noexcept {
