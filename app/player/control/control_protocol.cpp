@@ -63,7 +63,7 @@ std::expected<ControlRequest, std::string> requestOf(const std::string& words) {
   constexpr std::string_view kFault = "fault ";
   if (words.starts_with(kFault)) {
     const std::size_t space = words.find(' ', kFault.size());
-    if (space == std::string::npos) return std::unexpected("it is: fault DEVICE WHAT");
+    if (space == std::string::npos) return std::unexpected("write: fault DEVICE WHAT");
     return FaultRequest{words.substr(kFault.size(), space - kFault.size()), words.substr(space + 1)};
   }
   if (auto command = parseCommand(words)) return std::move(*command);

@@ -133,8 +133,8 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
   }
   if (!touches) rows.emplace_back("Wheel", "louder, or quieter");
   rows.emplace_back("Click or drag on the bar", "to that time");
-  rows.emplace_back("Double click", "the whole screen, or a window again");
-  rows.emplace_back("Right click", "pause, or go on");
+  rows.emplace_back("Double click", "full screen on or off");
+  rows.emplace_back("Right click", "pause or continue");
   return rows;
 }
 

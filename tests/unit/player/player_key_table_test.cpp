@@ -176,8 +176,8 @@ TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
     }
     return std::string();
   };
-  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "pause, or go on"), "p, Space, Enter");
-  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "pause, or go on"), "Play/Pause, OK");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "pause or continue"), "p, Space, Enter");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "pause or continue"), "Play/Pause, OK");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "slower, down to 1/8, with touch"), "[");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "to 10 % .. 80 % of the film"), "1 .. 8");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Remote, "to 10 % .. 90 % of the film"), "1 .. 9");
