@@ -31,7 +31,7 @@ const std::vector<std::string>& materialWords() {
   return words;
 }
 
-// " (law?)": what the first unknown word of KEY=VALUE,.. may have been meant to be; empty where none is near.
+// " (law?)": the known word that the first unknown word of KEY=VALUE,.. resembles; empty if there is none.
 std::string guessed(const std::string& text, std::span<const std::string> words) {
   const std::string small = inSmallLetters(text);
   for (std::size_t begin = 0; begin < small.size();) {
@@ -82,7 +82,7 @@ Material readMaterial(const std::string& word) {
   throw WordFailure({"--material " + word, material.error()});
 }
 
-// FILE or SECONDS=FILE,..; the parts of a material have names.
+// True for FILE or SECONDS=FILE,..; the parts of a material have names.
 bool namesMaps(const std::string& word) {
   return word.find('=') == std::string::npos || std::string_view("0123456789.").contains(word.front());
 }
@@ -259,8 +259,7 @@ CLI::Validator between(double low, double high) {
     const bool is_number = CLI::detail::lexical_cast(word, number);
     if (is_number && number >= low && number <= high) return {};
     std::ostringstream words;
-    words << word << (is_number ? " is not between " : " is not a number; it is one between ") << low << " and "
-          << high;
+    words << word << (is_number ? " is not between " : " is not a number; give one between ") << low << " and " << high;
     return words.str();
   };
   return {judge, ""};

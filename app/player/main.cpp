@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program of the box: chooses the back ends, plays or probes, and says in one line what went wrong.
+// The player's program: chooses the back ends, plays or probes, and reports errors in one line.
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -48,7 +48,7 @@ PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::
 
 std::optional<double> askForReading(double asked_n) {
   for (;;) {
-    std::printf("It is asked for %.0f N. The scale shows (N): ", asked_n);
+    std::printf("Requested force: %.0f N. The scale shows (N): ", asked_n);
     std::fflush(stdout);
     std::string line;
     if (!std::getline(std::cin, line) || line.empty()) return std::nullopt;
@@ -78,7 +78,7 @@ Outcome<void> keepOutputsApart(const PlayOptions& options, const FileConfig& con
   return keepApart(outputs, inputs);
 }
 
-// What a film is played on. Null: there is none.
+// The devices that a film is played on. Null: there is none.
 struct Devices {
   std::unique_ptr<Display> display;
   std::unique_ptr<HapticDevice> haptic, second_haptic;
@@ -87,12 +87,12 @@ struct Devices {
   drivers::DecoderMaker make_decoder;
 };
 
-// A device that cannot have the rate runs at its best, and that is said.
+// A device that cannot run at the rate runs at its highest, which is logged.
 Outcome<void> askForRate(HapticDevice& device, double hz) {
   const auto rate = device.setRate(hz);
   if (!rate) return failOn("--rate", rate.error());
   if (*rate != hz) {
-    log(LogLevel::Info, "haptic", "%s runs at %.0f Hz, its best; it cannot have the %.0f of --rate",
+    log(LogLevel::Info, "haptic", "%s runs at %.0f Hz, its highest rate; it cannot run at the %.0f Hz of --rate",
         device.capabilities().name, *rate, hz);
   }
   return {};
@@ -191,8 +191,8 @@ int listDevices(const FileConfig& config) {
     say(oneLine(device + each.state) + "\n");
     any = any || each.there;
   }
-  std::puts(any ? "`relievo FILM` takes a haptic device that is there, else the mouse; --haptic NAME chooses one."
-                : "None is needed to begin with: relievo FILM --haptic sim holds a simulated one in a simulated hand.");
+  std::puts(any ? "`relievo FILM` uses a connected haptic device, else the mouse; --haptic NAME chooses one."
+                : "Without a device: relievo FILM --haptic sim touches with a simulated device and hand.");
   return kExitDone;
 }
 
@@ -209,16 +209,17 @@ int calibrateFalcon(const FileConfig& config) {
     if (stop) device.cancel();
   });
   if (auto opened = (*falcon)->open(); !opened) return tell({"falcon", opened.error()});
-  std::puts("Home the Falcon: pull its grip out and push it in. Then hold it by the scale in the middle of its way.");
+  std::puts(
+      "Home the Falcon: pull its grip out and push it in. Then hold it with the scale in the middle of its range.");
   const auto ratio = measureStrength(**falcon, askForReading, clock);
   if (!ratio) return tell({"falcon", ratio.error()});
 
   const std::string path = config.path.empty() ? defaultConfigPath() : config.path;
-  std::printf("The Falcon gives %.0f %% of what it was asked for: counts_per_nm = %.0f.\n", 100 * *ratio,
+  std::printf("The Falcon gives %.0f %% of the requested force: counts_per_nm = %.0f.\n", 100 * *ratio,
               counts / *ratio);
   const auto saved = setNumber(path, "falcon", "counts_per_nm", counts / *ratio);
   if (!saved) return tell(saved.error());
-  std::printf("That is in %s now.\n", path.c_str());
+  std::printf("Written to %s.\n", path.c_str());
   return kExitDone;
 }
 

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-constexpr Error kTakenAway{ErrorCode::Lost, 0, "it was unplugged, and the film with it; plug it in to go on"};
+constexpr Error kTakenAway{ErrorCode::Lost, 0, "it was unplugged during the film; plug it in to continue"};
 
 }  // namespace
 
@@ -92,7 +92,7 @@ void Player::openSelected(MonotonicTime now) {
   openList({{.url = film.url, .depth_url = film.depth_url, .title = film.title}}, now);
 }
 
-// The film that is played alone is the selected one of the list: before and after it come that list's films.
+// A film that is played alone is the selected one of the list: next and previous are that list's films.
 std::optional<std::size_t> Player::placeOnShelf() const {
   if (!browser_ || browser_->shelf().empty() || programme_.size() > 1) return std::nullopt;
   const std::size_t selected = browser_->shelf().selected();
@@ -105,7 +105,7 @@ void Player::goBack(MonotonicTime now) {
   else stopFilm(now);
 }
 
-// Within the display's `attend`: what is chosen is opened later in the round.
+// Called within the display's `attend`: the chosen film is opened later in the round.
 bool Player::hearMouseInList(const SurfaceMouse& mouse) {
   const auto film = screen_.filmAt(mouse);
   browser_->point(film);

@@ -69,7 +69,7 @@ void FilmNotes::happened(const FilmFeed::News& news) {
 }
 
 void FilmNotes::refused(const Error& seek) {
-  journal_.note(std::string("seek: ") + seek.message, "the film goes on from where it stands");
+  journal_.note(std::string("seek: ") + seek.message, "the film continues from its present position");
 }
 
 void FilmNotes::slow() {

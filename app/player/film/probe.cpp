@@ -76,7 +76,7 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   const FilmInfo& f = r.film;
   std::vector<std::string> needs;
   const double pixels = double(f.color_width) * f.color_height + double(f.depth_width) * f.depth_height;
-  needs.push_back(print("a decoder for %s%s%s, %.1f million pixels a second; %s is at hand", f.color_codec.c_str(),
+  needs.push_back(print("a decoder for %s%s%s, %.1f million pixels a second; %s is available", f.color_codec.c_str(),
                         f.depth_codec.empty() ? "" : " and ", f.depth_codec.c_str(), 1e-6 * pixels * r.rate.average,
                         r.decoder.c_str()));
   if (!f.has_depth) {
@@ -100,7 +100,7 @@ std::vector<std::string> needsOf(const ProbeResult& r) {
   return needs;
 }
 
-// A live source's from its first pictures.
+// For a live source, from its first pictures.
 FrameRate colorRate(const ProbeResult& r) {
   FrameRate rate = r.tracks.at(static_cast<std::size_t>(r.film.color_stream)).rate;
   if (rate.average <= 0 && r.film.frame_period > Duration(0)) rate.average = 1 / toSeconds(r.film.frame_period);
@@ -120,7 +120,8 @@ Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backend
   return {};
 }
 
-// A picture's file may not say its size before it is decoded; of two halves, only the whole's is a track's.
+// A picture's file may not state its size before it is decoded; for packed halves, a track has the whole picture's
+// size.
 void takeSizes(ProbeResult& r) {
   using enum Packing;
   const FilmInfo& f = r.film;

@@ -25,27 +25,28 @@ inline constexpr const char* kProbeFooter =
     "  relievo probe film.mkv                         its tracks, what its depth means, what a finger will feel of it\n"
     "  relievo probe color.webm --depth depth.webm    two files\n"
     "  relievo probe --json film.mkv                  for programs\n"
-    "\nWhat it tells: tracks; `meaning`: each value of the calibration and who said it; `relief`: the codes and "
+    "\nIt prints: tracks; `meaning`: each value of the calibration and who said it; `relief`: the codes and "
     "heights in\n"
-    "use; `touch`: the widths that the finger will feel the relief through, and the error that is left; `needs`: what "
+    "use; `touch`: how much the relief is smoothed for the finger, and the remaining error; `needs`: what "
     "the\n"
     "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 usage error.\n";
 inline constexpr const char* kDevicesFooter =
-    "\nEach display and device is opened as `play` would; where it is refused, the line says why and what to do. Of a "
-    "screen\nit tells the mode and the 3D signals that it takes.\n"
+    "\nEach display and device is opened as `play` would; if that fails, the line says why and what to do. For a "
+    "screen,\nit lists the mode and the supported 3D signals.\n"
     "\nThe configuration (TOML; `relievo play --print-config` shows one) has a section for a Falcon:\n"
     "  [falcon]\n"
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
-    "  counts_per_nm = 6000           how strong it is, as `relievo devices calibrate` finds it\n";
+    "  counts_per_nm = 6000           its strength, as measured by `relievo devices calibrate`\n";
 inline constexpr const char* kCalibrateFooter =
     "\nHook a spring scale to the Falcon's grip and pull it out to the middle of its way. The grip pushes toward you "
     "with "
     "2,\n3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the configuration, "
-    "where\n`relievo play` finds it. Until then the Falcon is taken for as strong as any is said to be, so "
-    "that it is\nnever stronger than asked.\n";
+    "where\n`relievo play` finds it. Until then the highest strength that users have reported is assumed, so that "
+    "the\nforce is never larger than requested.\n";
 inline constexpr const char* kSelfTestFooter =
     "\nIt looks for a font and the decoders, and plays a film of its own for three seconds off screen, touched by the\n"
-    "simulated hand. Each line begins with `good`, `note` (it goes without, less well) or `bad`. Exit code: 0 nothing "
+    "simulated hand. Each line begins with `good`, `note` (works without it, but less well) or `bad`. Exit code: 0 "
+    "nothing "
     "is\n"
     "bad, 1 something is, 2 usage error.\n";
 inline constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 usage error.\n";
@@ -78,7 +79,7 @@ inline constexpr const char* kPlayFooter =
     "  relievo play evening.m3u --loop --resume\n"
     "      the films of a list, from where they were left\n"
     "  relievo play --control /run/user/1000/relievo\n"
-    "      waits; a program opens films by lines such as {\"do\": \"open film.mkv\"}, and is told what happens\n"
+    "      waits; a program opens films by lines such as {\"do\": \"open film.mkv\"}, and gets events\n"
     "\nEvery option can stand in the configuration by its long name, SOURCE as source:\n"
     "  [play]\n"
     "  display = \"kms\"\n"

@@ -57,7 +57,7 @@ std::vector<const char*> withCommand(const CLI::App& program, int argc, const ch
   return words;
 }
 
-// A misspelt command would be taken for a film.
+// A misspelt command would be taken as a film.
 Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& word) {
   std::vector<std::string> commands;
   for (const CLI::App* each : program.get_subcommands([](const CLI::App*) { return true; })) {
@@ -81,11 +81,12 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   program.footer(kProgramFooter);
   program.require_subcommand(1);
   CLI::App& play = *program.add_subcommand("play", kPlayAbout);
-  CLI::App& probe = *program.add_subcommand("probe", "Tell what is in a source, and what it needs");
-  CLI::App& devices = *program.add_subcommand("devices", "List the devices that are there, and why one cannot be used");
+  CLI::App& probe = *program.add_subcommand("probe", "Show what a source contains, and what it needs");
+  CLI::App& devices =
+      *program.add_subcommand("devices", "List the devices of this machine, and why one cannot be used");
   CLI::App& self_test = *program.add_subcommand("selftest", "Test this installation, without any hardware");
   self_test.footer(kSelfTestFooter);
-  CLI::App& calibrate = *devices.add_subcommand("calibrate", "Find out how strong the Falcon is, with a spring scale");
+  CLI::App& calibrate = *devices.add_subcommand("calibrate", "Measure the Falcon's force with a spring scale");
   addPlayOptions(play, options.play, names);
   addConfigOption(play, config_path);
   play.add_flag("--print-config", print_config,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An output that cannot be written is found out before the film begins.
+// Checks before the film begins that the outputs can be written.
 #include "app/player/setup/play_files.h"
 
 #include <filesystem>
@@ -25,7 +25,8 @@ Outcome<void> loadPlayFiles(PlayOptions& options) {
   const std::string path = Resume::defaultPath();
   if (path.empty()) {
     if (!options.resume) return {};
-    return failOn("--resume", {ErrorCode::NotFound, 0, "there is no home to remember in; set HOME or STATE_DIRECTORY"});
+    return failOn("--resume",
+                  {ErrorCode::NotFound, 0, "there is no folder to keep settings in; set HOME or STATE_DIRECTORY"});
   }
   makeFolders(std::filesystem::path(path).parent_path());
   const auto place = AtomicFile::create(path);
@@ -66,7 +67,7 @@ Outcome<PlayOutputs> makeOutputs(const PlayOptions& options) {
 }
 
 int finishFiles(const PlayReport& report, PlayOutputs& outputs) {
-  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cost its files
+  const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cancel writing its files
   int result = kExitDone;
   const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
     if (!recorder || haptic.ticks == 0) return;

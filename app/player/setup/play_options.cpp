@@ -139,9 +139,9 @@ void addSignalOption(CLI::App& command, std::optional<StereoSignal>& signal) {
   command
       .add_option_function<std::string>(
           "--tv-signal", [&signal](const std::string& word) { signal = readSignal(word); },
-          "The 3D signal that tells a television how the two pictures lie (kms); they are laid out for it. If the "
-          "television\ndoes not take this signal, it is sent the best that it takes; if it takes none, the layout is "
-          "that of --stereo.\noff: no signal [the one of --stereo, if it has one]")
+          "The 3D signal sent to a television (kms); the two pictures are laid out to match it. If the television does "
+          "not\nsupport it, the best supported one is sent; if it supports none, the layout is that of --stereo.\noff: "
+          "no signal [the one of --stereo, if it has one]")
       ->type_name("frame-packing|tab|sbs|off");
 }
 
@@ -186,13 +186,13 @@ void addFileOptions(CLI::App& command, PlayOptions& play) {
       ->configurable(false);
   command.add_flag("-v,--verbose", play.verbose, "Print more: the source of each depth value, figures of the ticks")
       ->configurable(false);
-  command.add_option("--report", play.report_path, "Write what happened, as JSON")->type_name("FILE");
+  command.add_option("--report", play.report_path, "Write states, faults and figures of the run, as JSON")
+      ->type_name("FILE");
   command.add_option("--record", play.record_path, "Write every tick of the finger, as CSV")->type_name("FILE");
   command
       .add_option("--control", play.control_path,
                   "Take commands from programs on this socket, one JSON object per line; after SOURCE, or without it, "
-                  "wait for the\n"
-                  "next film, until a program says quit")
+                  "wait for the\nnext film, until a program sends quit")
       ->type_name("SOCKET");
 }
 
@@ -218,8 +218,8 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command
       .add_option_function<std::string>(
           "--size", [&play](const std::string& word) { play.player.display = readSize(word); },
-          "Pixels of the picture [a window: the film's; else 1280x720]; kms: a mode that the screen has, else the one\n"
-          "that it prefers")
+          "Pixels of the picture [a window: the film's; else 1280x720]; kms: a mode of the screen, else its "
+          "preferred\none")
       ->type_name("WxH");
   addStereoOptions(command, play.player.stereo);
   addSignalOption(command, play.tv_signal);
@@ -236,14 +236,14 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->excludes(decoder);
   addBoxOption(command, play.player.volume);
   addSoundAndTextOptions(command, play.player);
-  command.add_flag("--osd", play.osd, "Write bar, keys and notices over an off-screen picture too");
-  command.add_flag("--loop", play.player.loop, "Begin again at the end");
+  command.add_flag("--osd", play.osd, "Show bar, keys and notices over an off-screen picture, too");
+  command.add_flag("--loop", play.player.loop, "Repeat from the beginning at the end");
   command
       .add_option_function<double>(
           "--duration", [&play](double seconds) { play.player.duration = readDuration(seconds); },
           "Stop after so many seconds")
       ->type_name("S");
-  command.add_flag("--resume", play.resume, "Begin where the film was left, and remember where it is left");
+  command.add_flag("--resume", play.resume, "Resume the film where it was left, and remember where it is left");
   command
       .add_option(
           "--films", play.films,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each check asks what a film needs, in the way in which a film asks it.
+// Each check uses the same calls as a film would.
 #include "app/player/setup/self_test.h"
 
 #include <array>
@@ -73,7 +73,7 @@ SelfTestLine touch(const HapticSummary& haptic) {
   if (haptic.ticks == 0) return {Verdict::Bad, "touch", "the haptic task did not run"};
   const bool good = haptic.max_force_n > kFelt_n && haptic.max_force_n <= kMost_n && haptic.allocations == 0;
   if (good) return {Verdict::Good, "touch", said};
-  return {Verdict::Bad, "touch", said + "; the force should be felt, stay under 10 N, and nothing be allocated"};
+  return {Verdict::Bad, "touch", said + "; there should be a force, under 10 N, and no allocation"};
 }
 
 SelfTestLine realTime(const HapticSummary& haptic) {

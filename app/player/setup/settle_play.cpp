@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A window brings other devices along than a screen, and neither is there off screen.
+// The default devices of a window differ from those of a screen; off screen there are neither.
 #include "app/player/setup/settle_play.h"
 
 #include <cstdlib>
@@ -29,8 +29,8 @@ void settleFingers(PlayOptions& play) {
     play.haptic = std::exchange(play.second_haptic, {});
 }
 
-// A window brings its keys and its mouse along; nothing else has them. A whole screen is watched from a sofa. Who sees
-// the film hears it, and feels it with what is at hand.
+// A window comes with its keys and its mouse; other displays do not have them. A whole screen is watched from a sofa.
+// Whoever sees the film also hears it, and feels it with the available device.
 Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
   const bool window = play.display.plain("window");
   const bool seen = window || play.display.word == "kms";
@@ -60,8 +60,8 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
   return {};
 }
 
-// A television that takes the signal shows the two pictures as one; where it takes none, a picture of two halves is
-// shown all the same. Half the size of each eye's is what the signals for two halves mean.
+// A television that supports the signal shows the two pictures as one; otherwise a picture of two halves is still
+// shown. In the signals for two halves, each eye has half the size.
 void settleSignal(PlayOptions& play) {
   DisplayConfig& display = play.player.display;
   const StereoSettings& stereo = play.player.stereo;
@@ -88,7 +88,7 @@ std::string usualFilms() {
   return "/srv/films";
 }
 
-// The list is for who can see it, or for programs that know its folders.
+// The list of films needs a visible screen, or programs that know its folders.
 void settleBrowser(PlayOptions& play) {
   const bool no_film = play.player.source.url.empty();
   const bool seen = play.display.plain("window") || play.display.word == "kms";
@@ -111,7 +111,7 @@ Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   const bool seen = play.display.plain("window") || play.display.word == "kms";
   if (play.player.source.url.empty() && !play.films.empty() && !seen && !play.player.stays) {
     return failOn("--films", {ErrorCode::InvalidArgument, 0,
-                              "shows a list, and nobody sees it off screen; use --display window or kms, or add "
+                              "shows a list, which cannot be seen off screen; use --display window or kms, or add "
                               "--control for a program to choose"});
   }
   settleBrowser(play);

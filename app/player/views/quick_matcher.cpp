@@ -20,7 +20,7 @@ class QuickMatcher final : public StereoMatcher {
       return {"the right eye's view comes first",
               "the relief is made the right way round; if the picture looks inside out: --swap-eyes"};
     if (depth_.isOrderUnknown())
-      return {"its pictures do not tell which eye's view comes first; it is taken for the left eye's",
+      return {"its pictures do not show which eye's view comes first; it is taken for the left eye's",
               "if near feels far: relievo-author --depth-from stereo --swap-eyes yes"};
     return {};
   }

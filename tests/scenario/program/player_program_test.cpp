@@ -158,7 +158,8 @@ TEST_F(PlayerProgram, ADeviceThatCannotTickAsOftenIsToldOfInOneLineAndPlays) {
   EXPECT_EQ(reportOf("r.json")["haptic"]["rate_hz"], 2000);
   const auto slow = play(words + "sim:falcon --rate 2000");
   EXPECT_EQ(slow.exit_code, 0) << slow.err;
-  EXPECT_THAT(slow.err, HasSubstr("sim falcon runs at 1000 Hz, its best; it cannot have the 2000 of --rate\n"));
+  EXPECT_THAT(slow.err,
+              HasSubstr("sim falcon runs at 1000 Hz, its highest rate; it cannot run at the 2000 Hz of --rate\n"));
   EXPECT_EQ(reportOf("r.json")["haptic"]["rate_hz"], 1000);
 }
 

@@ -71,7 +71,7 @@ TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "film.mkv", "--control", "/run/r"}),
             (std::vector<std::string>{"/a"}))
       << "a box shows it after its film";
-  EXPECT_EQ(folders(machineWith(false, false), {"--control", "/run/r"}), none) << "nobody sees it";
+  EXPECT_EQ(folders(machineWith(false, false), {"--control", "/run/r"}), none) << "cannot be seen off screen";
 }
 
 TEST(Options, WithoutADesktopItTakesTheScreen) {
