@@ -43,7 +43,9 @@ std::string lastLine(std::string text) {
 
 Outcome<std::unique_ptr<DepthCommand>> DepthCommand::start(Setup setup, const std::atomic<bool>& stop) {
   UniqueFd wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!wake.valid()) return failOn(setup.command, {ErrorCode::Exhausted, errno, "no descriptor for it can be had"});
+  if (!wake.valid())
+    return failOn(setup.command,
+                  {ErrorCode::Exhausted, errno, "no file descriptor is left for it; close other programs"});
   auto child =
       ChildProcess::start(setup.command, {print("RELIEVO_WIDTH=%d", setup.cols), print("RELIEVO_HEIGHT=%d", setup.rows),
                                           print("RELIEVO_DEPTH_WIDTH=%d", setup.depth_cols),
@@ -119,7 +121,7 @@ Outcome<void> DepthCommand::waitFor(Lock& lock, Ready ready) {
   return {};
 }
 
-// After the last answer: it writes nothing more and ends well.
+// After the last answer the command must write nothing more and exit with 0.
 Outcome<void> DepthCommand::checkEnd(Lock& lock) {
   while (!output_ended_ || !child_.end()) {
     if (too_much_) return failed("wrote more than was asked for", kTooMuch);
@@ -190,7 +192,7 @@ void DepthCommand::writeSome(const RawPicture& picture) {
   const ssize_t n = ::write(child_.input.get(), bytes.data() + written_, bytes.size() - written_);
   if (n < 0 && (errno == EAGAIN || errno == EINTR)) return;
   const Lock lock(mutex_);
-  if (n < 0) {  // it reads no more; its output says why
+  if (n < 0) {  // it has stopped reading; its output says why
     child_.input.reset();
     waiting_.clear();
     written_ = 0;

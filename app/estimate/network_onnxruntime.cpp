@@ -9,9 +9,8 @@
 namespace relievo {
 namespace {
 
-constexpr Error kNotRun{
-    ErrorCode::Unsupported, 0,
-    "ONNX Runtime cannot run this network; a command that runs it elsewhere can stand here instead"};
+constexpr Error kNotRun{ErrorCode::Unsupported, 0,
+                        "ONNX Runtime cannot run this network; give a command that runs it instead"};
 
 std::unexpected<Failure> notRun(const std::string& path, const Ort::Exception& e) {
   return failOn(path + ": " + inOneLine(e.what()), kNotRun);
@@ -59,7 +58,7 @@ class OnnxRuntimeNetwork final : public NetworkEngine {
 
  private:
   std::string path_;
-  Ort::Env environment_{ORT_LOGGING_LEVEL_FATAL, "relievo"};  // what it says is in the exception, too
+  Ort::Env environment_{ORT_LOGGING_LEVEL_FATAL, "relievo"};  // the exception has the same message
   Ort::Session session_;
   std::string input_, output_;
 };

@@ -9,10 +9,9 @@ namespace relievo {
 namespace {
 
 constexpr Error kNotRun{ErrorCode::Unsupported, 0,
-                        "OpenCV " CV_VERSION
-                        " cannot run this network; a command that runs it elsewhere can stand here instead"};
+                        "OpenCV " CV_VERSION " cannot run this network; give a command that runs it instead"};
 
-// Which layer OpenCV stumbled over, where it says so ("Node [Clip@ai.onnx]"); else its words.
+// The layer at which OpenCV failed, if it names it ("Node [Clip@ai.onnx]"); else OpenCV's message.
 std::string wordsOf(const cv::Exception& e) {
   constexpr std::string_view kNode = "Node [";
   const std::string words = e.err.empty() ? std::string(e.what()) : e.err;
@@ -51,7 +50,7 @@ class OpenCvNetwork final : public NetworkEngine {
 }  // namespace
 
 Outcome<std::unique_ptr<NetworkEngine>> openNetwork(const std::string& path, std::span<const std::uint8_t> model) {
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // what it says is in the exception, too
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // the exception has the same message
   try {
     return std::make_unique<OpenCvNetwork>(
         path, cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(model.data()), model.size()));

@@ -15,11 +15,11 @@ constexpr Duration kLookEvery = std::chrono::milliseconds(500);
 constexpr std::size_t kMostLooks = 24;  // kept of a shot; of a longer one every second is left out, and so on
 constexpr int kKeptCols = 640;          // of what is kept: in which the eyes are told apart
 constexpr int kReducedCols = 320;       // in which the range is measured
-constexpr std::size_t kMostAsked = 8;   // pictures of a shot that tell the eyes apart
+constexpr std::size_t kMostAsked = 8;   // pictures of a shot that are examined for the eyes' order
 constexpr int kWidest = 6;              // a part of the width: the largest disparity
 constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
-constexpr double kLeastShift = 0.5;     // pixels, that are worth to correct
+constexpr double kLeastShift = 0.5;     // pixels that are worth correcting
 constexpr double kBadRest = 1.5;        // pixels
 constexpr const char* kSamePicture = "both views are the same picture: there is no depth to be had from it";
 
@@ -76,7 +76,7 @@ class DisparityCount {
   std::uint64_t all_ = 0;
 };
 
-// All but the outliers lie where they would in two copies of one picture: a codec and noise move them by less.
+// All but the outliers have the disparity that two copies of one picture would have: a codec and noise shift them less.
 bool isSame(const DisparityCount& count) {
   constexpr double kOutliers = 0.05, kMost = 0.5;  // pixels of the reduced picture
   return count.below(kOutliers) >= -kMost && count.below(1 - kOutliers) + 0.25 <= kMost;
@@ -181,7 +181,7 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
   shot.range = {static_cast<int>(std::floor(low - spare)), static_cast<int>(std::ceil(high + spare))};
 }
 
-// What one eye alone sees is a few pixels wide: it is looked for in larger pictures than the range.
+// An area that only one eye sees is a few pixels wide, so larger pictures are used than for the range.
 void StereoSurvey::askEyes(const ShotPlan& shot) {
   if (!shot.has_depth) return;
   const int cols = looked_.front().left.cols;
@@ -219,7 +219,7 @@ void StereoSurvey::explain() {
   }
   if (unfitting_ > 0) {
     plan_.notes.push_back(
-        print("in %d %s the views do not lie row by row and could not be straightened", unfitting_, of.c_str()));
+        print("in %d %s the rows of the two views do not match and could not be aligned", unfitting_, of.c_str()));
   }
   if (flat > 0) plan_.notes.push_back(print("%zu %s have nothing that both views show and are flat", flat, of.c_str()));
 }
@@ -236,8 +236,9 @@ Result<StereoPlan> StereoSurvey::finish() {
   const auto deep = static_cast<std::size_t>(std::ranges::count_if(plan_.shots, &ShotPlan::has_depth));
   if (deep > 0 && same_ == deep) return fail(ErrorCode::Unsupported, kSamePicture);
   if (deep == 0) {
-    return fail(ErrorCode::Unsupported,
-                "its views have nothing in common; it is no film of two views, or they lie another way: see --packing");
+    return fail(
+        ErrorCode::Unsupported,
+        "its views have nothing in common; it is no film of two views, or they have another layout: see --packing");
   }
   plan_.views_swapped = eyes_.areSwapped();
   plan_.order_known = plan_.views_swapped || eyes_.areInOrder();

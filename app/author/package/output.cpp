@@ -88,8 +88,7 @@ std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
                  mm(e.error_before), newtons(e.error_before), mm(e.error_after), newtons(e.error_after));
   constexpr double kShown = 0.0005;  // mm: half of the last digit
   if (mm(e.error_after) > mm(e.error_before) + kShown) {
-    lines +=
-        "    by this estimate it makes the depth worse: leave --enhance out, unless narrow holes shall be filled\n";
+    lines += "    by this estimate the depth gets worse: leave out --enhance, unless narrow holes must be filled\n";
   }
   if (e.points > 0) {
     lines += print("    mesh: %.0f points per picture, at most %zu; every sample within %.1f levels of it\n", e.points,

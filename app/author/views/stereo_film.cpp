@@ -12,7 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr Error kNotTwoViews{ErrorCode::Unsupported, 0,
-                             "not a film of two views; if it is one, say how they lie with --packing stereo-sbs or "
+                             "not a film of two views; if it is one, state their layout with --packing stereo-sbs or "
                              "stereo-tb"};
 constexpr Error kNotReadAgain{ErrorCode::Unsupported, 0,
                               "depth from two views reads the film twice; record it to a file first"};
@@ -22,7 +22,7 @@ bool canBeReadAgain(const std::string& url) {
   return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
 }
 
-// The user says that the film has two views: where its halves may be two, they are.
+// The user states that the film has two views, so halves that may be views are taken as views.
 Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backends& backends) {
   PairReader reader(backends);
   if (auto opened = reader.open(source); !opened) return failOn(reader.failedThing(), opened.error());
@@ -93,7 +93,7 @@ Outcome<StereoFilm> StereoFilm::survey(const SourceOptions& source, const PairRe
                                                   swapped ? "no" : "yes"));
   } else if (!order_known && swap == SwapEyes::Auto) {
     film.notes_.emplace_back(
-        "the pictures do not tell which eye's view comes first; it is taken for the left eye's: if near feels far, "
+        "the pictures do not show which eye's view comes first; it is taken for the left eye's: if near feels far, "
         "make it again with --swap-eyes yes");
   }
   return film;

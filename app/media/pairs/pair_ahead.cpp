@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks at later pictures of a film: for one that is not blank, and for how near and far its depth comes.
+// Looks at later pictures of a film: for one that is not blank, and for the range of its depth.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +14,7 @@
 namespace relievo {
 namespace {
 
-// Of later pictures beyond the ones that near and far were read from.
+// The share and range of later pictures' depth beyond the range first read.
 struct Beyond {
   int samples = 0, valid = 0, outside = 0;
   double low = 0, high = 0;  // the codes in use, without outliers
@@ -59,7 +59,7 @@ double distanceOf(const DepthCalibration& c, double code) {
   return at_low + s * (at_high - at_low);
 }
 
-// What to type so that the codes of `beyond` are within as well.
+// The option to type so that the codes of `beyond` are included.
 std::string widerOption(const DepthCalibration& c, const Beyond& beyond) {
   constexpr double kNearer = 0.9, kFarther = 1.1;
   const double low = std::min(beyond.low, c.lowCode()), high = std::max(beyond.high, c.highCode());
@@ -77,8 +77,8 @@ std::string widerOption(const DepthCalibration& c, const Beyond& beyond) {
   return option;
 }
 
-// Of a film with a single key frame: pictures a `step` apart, read on from there while `take` is true and time is left,
-// which is not asked after a few small pictures.
+// For a film with a single key frame: reads on in steps of `step` while `take` is true and time is left; the time is
+// not checked after a few small pictures.
 void readOn(TrackReader& scout, Duration step, MonotonicTime until, const std::function<bool(const Frame&)>& take) {
   constexpr Duration kLongest = std::chrono::milliseconds(400);
   constexpr std::int64_t kFew = 1 << 22;  // samples
@@ -98,7 +98,7 @@ void readOn(TrackReader& scout, Duration step, MonotonicTime until, const std::f
 
 }  // namespace
 
-// A source that can be opened a second time at no cost to others.
+// True for a source that can be opened a second time at no cost to others.
 bool PairReader::Impl::isFile(const std::string& url) {
   return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
 }
@@ -115,7 +115,7 @@ std::unique_ptr<TrackReader> PairReader::Impl::scoutOf(const std::string& url, i
   return scout;
 }
 
-// `first`, or if it is blank a later picture of the same stream. Fewer are looked at if they are large.
+// Returns `first`, or if it is blank a later picture of the same stream. Examines fewer pictures if they are large.
 Frame PairReader::Impl::tellingPicture(const Frame& first, const std::string& url, int stream) {
   constexpr std::int64_t kMostPictures = 40, kMostSamples = 1 << 27;
   constexpr std::array kLater{2, 5, 10, 20, 40};  // seconds
@@ -193,7 +193,7 @@ Result<Frame> PairReader::Impl::depthIn(const Frame& stored) {
   return ordered && registrar ? registrar->registered(*ordered) : std::move(ordered);
 }
 
-// Says once that a picture lies beyond near and far as far as these are a guess.
+// Reports, once, a picture that lies beyond near and far if these were guessed.
 void PairReader::Impl::checkReach(const Frame& picture) {
   constexpr double kTold = 0.02;
   const DepthCalibration& calibration = info.calibration.calibration;
@@ -202,7 +202,7 @@ void PairReader::Impl::checkReach(const Frame& picture) {
   if (beyond.outside <= kTold * beyond.samples) return;
   reach_open = false;
   log(LogLevel::Warning, "media",
-      "%s: at %.1f s %.0f %% of the depth is nearer or farther than the pictures that were looked at, and is flat: "
+      "%s: at %.1f s %.0f %% of the depth is outside the range of the first pictures, and is flat: "
       "--calibration %s",
       depthUrl().c_str(), toSeconds(picture.pts.time_since_epoch()), 100.0 * beyond.outside / beyond.samples,
       widerOption(calibration, beyond).c_str());

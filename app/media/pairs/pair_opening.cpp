@@ -28,7 +28,7 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
   return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
-// The rate of depth pictures that have no times: the user's, else that of the film that they were recorded with.
+// The frame rate of depth pictures without times: the user's, else that of the film that they were recorded with.
 std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo& color) {
   if (told || color.counted || !color.average_rate.known()) return told;
   return static_cast<double>(color.average_rate.num) / color.average_rate.den;
@@ -82,7 +82,7 @@ Result<void> PairReader::Impl::openFilm() {
                                 "registration out"});
   }
 
-  // The colour track leads, so it is selected first.
+  // The first track selected leads, so the colour is selected first.
   const auto chosen = sources.color()->select(asTold(*plan->color));
   if (!chosen) return failOn(options.url, chosen.error());
   if (plan->depth == nullptr && !isPacked() && !two_sources && options.packing == Packing::Auto)
@@ -110,8 +110,7 @@ void PairReader::Impl::takeDepthBeside(const StreamInfo& color) {
   options.depth_url = file;
   const auto opened = selectDepth(nullptr, color);
   if (opened) {
-    info.notes.push_back(
-        print("depth is read from %s, which lies beside the film; --depth FILE takes another", file.c_str()));
+    info.notes.push_back(print("depth is read from %s beside the film; --depth FILE chooses another", file.c_str()));
     return;
   }
   info.notes.push_back(
@@ -157,8 +156,8 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream, const Strea
     if (auto opened = sources.depth()->open(depthUrl()); !opened) return failOn(depthUrl(), opened.error());
     const StreamInfo& pictures = sources.depth()->stream();
     if (rate && !options.frames_per_s && pictures.counted && pictures.average_rate.known()) {
-      info.notes.push_back(
-          print("the depth pictures tell no times: %.6g a second as in the film; --fps F changes that", *rate));
+      info.notes.push_back(print(
+          "the depth pictures have no times: %.6g a second assumed, as in the film; --fps F changes that", *rate));
     }
     return {};
   }
@@ -174,7 +173,7 @@ Result<void> PairReader::Impl::selectDepth(const StreamInfo* stream, const Strea
   return {};
 }
 
-// A recording of two cameras may say how they stand to each other.
+// A recording of two cameras may contain their relative position.
 void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
   if (options.registration) {
     registrar.emplace(*options.registration);

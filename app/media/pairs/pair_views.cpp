@@ -15,15 +15,17 @@ namespace {
 
 constexpr const char* kViews = "two views of one scene (stereo), no depth";
 constexpr const char* kShown =
-    "each eye is shown its own, and there is nothing to feel; --depth-from stereo makes depth from them: while they "
-    "play, or better beforehand with relievo-author";
+    "shown in stereo, without touch; --depth-from stereo makes depth from them: while they play, or better beforehand "
+    "with relievo-author";
 constexpr const char* kOtherPictures =
     "the halves of its picture do not show one scene: it is no film of two views; leave --packing out";
 constexpr const char* kHasDepth = "--depth-from is left out: the film has depth of its own";
 constexpr const char* kOneView =
-    "--depth-from stereo is left out: the film has one view; if it has two, say how they lie with --packing stereo-sbs "
+    "--depth-from stereo is left out: the film has one view; if it has two, state their layout with --packing "
+    "stereo-sbs "
     "or stereo-tb";
-constexpr const char* kSecondMissing = "it is coded as two views (MV-HEVC), but holds the first alone: it plays as 2D";
+constexpr const char* kSecondMissing =
+    "it is coded as two views (MV-HEVC), but contains only the first: it plays as 2D";
 constexpr const char* kSecondUnread =
     "its second view (MV-HEVC) cannot be decoded, and it plays as 2D: the second needs FFmpeg 7.1 or later, and the "
     "film's parameters of that view";
@@ -83,7 +85,7 @@ bool PairReader::Impl::takeLayers(const StreamInfo& color) {
   return decoded;
 }
 
-// Two views, as the film itself says. False if it says nothing.
+// Two views, as stated by the film itself. False if it states nothing.
 bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
   if (takeLayers(color)) return true;
   const auto said = saidViews(color, look, options.url);
@@ -92,7 +94,7 @@ bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look)
   const auto squeezed = color.tags.find(kSqueezedTag);
   if (squeezed != color.tags.end()) views.squeezed = squeezed->second == "1";
   if (said->packing == Packing::Auto)
-    info.reading.doubts.push_back(print("%s %s, in a way that is not shown; %s", said->by, kViews, kWhatToDo));
+    info.reading.doubts.push_back(print("%s %s, in a layout that is not supported; %s", said->by, kViews, kWhatToDo));
   else showViews(said->packing, said->by);
   return true;
 }
@@ -112,7 +114,7 @@ void PairReader::Impl::showViews(Packing packing, const char* by) {
   if (options.depth_from == DepthFrom::Film) info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
 }
 
-// Whether the picture can be what the user says.
+// Checks whether the picture can be what the user has stated.
 void PairReader::Impl::checkViews(const StreamInfo& color) {
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
   const auto seen = viewsOf(look, info.packing, views.right_first);
@@ -133,7 +135,7 @@ void PairReader::Impl::takeDepthFromViews() {
   info.reading.parts = {{"kind", "made from its two views as they play", CalibrationOrigin::CommandLine}};
 }
 
-// Depth, or a matte, which is told if it is one.
+// Takes the alpha channel as depth, or reports that it may be a matte.
 bool PairReader::Impl::lookForAlpha(const StreamInfo& color, const Frame& look) {
   const auto alpha = lookAtAlpha(look);
   if (!alpha) {

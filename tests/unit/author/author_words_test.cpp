@@ -123,7 +123,7 @@ TEST(AuthorSummary, SaysWhereEnhancementMakesTheDepthWorse) {
   summary.enhancement = Enhancement::Median;
   // Levels of 255 in a box 40 mm deep: .0157 mm, .0471 mm.
   summary.enhanced = {.error_before = 0.1, .error_after = 0.3};
-  EXPECT_THAT(toText("a.mkv", summary), HasSubstr("makes the depth worse: leave --enhance out"));
+  EXPECT_THAT(toText("a.mkv", summary), HasSubstr("the depth gets worse: leave out --enhance"));
   summary.enhanced = {.error_before = 0.3, .error_after = 0.1};
   EXPECT_THAT(toText("a.mkv", summary), testing::Not(HasSubstr("worse")));
   summary.enhanced = {.error_before = 0.1, .error_after = 0.102};

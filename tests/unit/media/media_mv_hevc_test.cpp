@@ -264,7 +264,7 @@ TEST_F(MvHevc, WhatIsLeftOutIsLeftOutOfBothEyes) {
 TEST_F(MvHevc, WhereTheFirstIsLeftAloneItPlaysFlat) {
   open(withoutBox(withoutLayer(theFilm(), 1, kAllSamples), "lhvC"));
   EXPECT_EQ(reader_.info().packing, Packing::Tracks);
-  EXPECT_THAT(reader_.info().reading.doubts, testing::ElementsAre(HasSubstr("holds the first alone")));
+  EXPECT_THAT(reader_.info().reading.doubts, testing::ElementsAre(HasSubstr("contains only the first")));
   const auto pairs = rest();
   ASSERT_EQ(pairs.size(), static_cast<std::size_t>(kPictures));
   for (int k = 0; k < kPictures; ++k) {

@@ -214,7 +214,7 @@ TEST(Recordings, DepthThatLiesBesideTheFilmIsTakenAndSaid) {
   makeClip(folder / "clip-depth.mkv", {depth});
   const Seen seen = open({.url = folder / "clip.mkv"});
   EXPECT_TRUE(seen.info.has_depth);
-  EXPECT_THAT(seen.info.notes, Contains(HasSubstr("clip-depth.mkv, which lies beside the film")));
+  EXPECT_THAT(seen.info.notes, Contains(HasSubstr("clip-depth.mkv beside the film")));
   EXPECT_THAT(open({.url = folder / "clip.mkv", .packing = Packing::SideBySide}).info.notes,
               testing::Not(Contains(HasSubstr("lies beside it"))));
   std::ofstream(folder / "clip-depth.mkv") << "no film";

@@ -63,7 +63,7 @@ void expectViews(const test::OpenedFilm& film, Packing packing, const char* by) 
   EXPECT_FALSE(film.info.has_depth);
   EXPECT_TRUE(film.pair.depth.empty());
   EXPECT_THAT(film.info.reading.doubts, Contains(HasSubstr(by)));
-  EXPECT_THAT(film.info.reading.doubts, Contains(HasSubstr("each eye is shown its own")));
+  EXPECT_THAT(film.info.reading.doubts, Contains(HasSubstr("shown in stereo, without touch")));
   ASSERT_FALSE(film.pair.right.empty());
   EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 20, 20), kDark, 4);
   EXPECT_NEAR(test::sampleAt(film.pair.right, 0, 20, 20), kBright, 4);
@@ -228,7 +228,7 @@ TEST(Views, AJpsOfAnotherLayoutIsTold) {
   write(folder / "a.jpg", jps(jpegOf(beside), 1, 4));
   const test::OpenedFilm photo = test::openFilm({.url = folder / "a.jpg"});
   EXPECT_TRUE(photo.pair.right.empty());
-  EXPECT_THAT(photo.info.reading.doubts, Contains(HasSubstr("not shown")));
+  EXPECT_THAT(photo.info.reading.doubts, Contains(HasSubstr("not supported")));
 }
 
 }  // namespace
