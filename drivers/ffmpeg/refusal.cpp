@@ -31,7 +31,7 @@ std::string headOf(const std::string& path) {
 }
 
 constexpr const char* kCloud =
-    "it is a cloud of points without pictures; relievo plays depth as pictures: name the recording that it was made of";
+    "it is a point cloud; relievo plays depth pictures: give the recording that it was made from";
 
 // By the ending, where files of several kinds begin alike or in no fixed way.
 struct UnreadEnding {
@@ -39,7 +39,8 @@ struct UnreadEnding {
   const char* line;
 };
 constexpr const char* kRaw =
-    "it is bare numbers that tell no size; convert it: ffmpeg -f rawvideo -pix_fmt gray16le -video_size WIDTHxHEIGHT "
+    "it is raw numbers without a picture size; convert it: ffmpeg -f rawvideo -pix_fmt gray16le -video_size "
+    "WIDTHxHEIGHT "
     "-framerate F -i FILE -c:v ffv1 depth.mkv";
 constexpr const char* kText =
     "it is a table of numbers as text; convert it: python3 -c 'import numpy; numpy.save(\"depth.npy\", "
@@ -60,7 +61,7 @@ constexpr const char* kOpencv =
     "cv2.FileStorage(\"FILE\", 0).getFirstTopLevelNode().mat())'";
 constexpr const char* kPacked = "it is compressed; unpack it and name what is in it";
 constexpr const char* kModel =
-    "it is a 3D model; relievo plays depth as pictures: name the recording that it was made of";
+    "it is a 3D model; relievo plays depth pictures: give the recording that it was made from";
 constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
 constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
     {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},
@@ -71,7 +72,7 @@ constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
     {"raw", kRaw},
     {"bin", kRaw},
     {"yuv",
-     "it is bare pictures that tell no size; convert it: ffmpeg -f rawvideo -pix_fmt yuv420p -video_size "
+     "it is raw pictures without a size; convert it: ffmpeg -f rawvideo -pix_fmt yuv420p -video_size "
      "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 film.mkv"},
     {"sens", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
     {"klg", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
@@ -219,9 +220,10 @@ Error refusal(const Address& address, int code, const std::string& words) {
   if (address.way == Way::File && isTooLargeY4m(localPathOf(address.url)))
     return {ErrorCode::Unsupported, 0, VideoDecoder::kTooLarge};
   if (code == AVERROR_INVALIDDATA && address.way == Way::File && isText(headOf(localPathOf(address.url)))) {
-    return {ErrorCode::Corrupt, 0,
-            "it is text, not a film, whatever its name says; look into it: a download may have saved a web page; depth "
-            "of another program is read from .npy, 16-bit PNG, PFM, EXR or TIFF: write it as one of them"};
+    return {
+        ErrorCode::Corrupt, 0,
+        "it is text, not a film, despite its name; open it in an editor: a download may have saved a web page; depth "
+        "of another program is read from .npy, 16-bit PNG, PFM, EXR or TIFF: write it as one of them"};
   }
   if (!address.remote()) return openError(code);
   // FFmpeg returns EINVAL for what the whitelists of `optionsFor` forbid.

@@ -93,7 +93,7 @@ class EvdevPadPort final : public PadPort {
 
   Result<std::int16_t> upload(const ff_effect& effect) noexcept override {
     ff_effect sent = effect;
-    if (::ioctl(fd_.get(), EVIOCSFF, &sent) < 0) return failed("the gamepad took no effect; plug it in again");
+    if (::ioctl(fd_.get(), EVIOCSFF, &sent) < 0) return failed("the gamepad accepted no effect; plug it in again");
     return sent.id;
   }
   Result<void> erase(std::int16_t id) noexcept override {

@@ -65,8 +65,8 @@ class Gamepad final : public HapticDevice {
     has_gain_ = facts->forces.has(FF_GAIN);
     has_centring_ = facts->forces.has(FF_AUTOCENTER);
     if (!std::exchange(told_, true)) {
-      log(LogLevel::Info, "haptic", "%s: %s; it is no device of 1 kHz and three axes, its effects follow within 10 ms",
-          facts->name.c_str(), motors_.axes > 0 ? "its stick pushes" : "it tells by rumble what it feels");
+      log(LogLevel::Info, "haptic", "%s: %s; it is not a 1 kHz three-axis device: its effects are up to 10 ms late",
+          facts->name.c_str(), motors_.axes > 0 ? "its stick pushes" : "rumble shows the force");
     }
     return {};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who sends takes the turn without waiting: the tick leaves a message out while the watchdog sends.
+// A sender takes the turn without waiting: the tick skips a message while the watchdog sends.
 #include "drivers/inverse3/channel.h"
 
 #include <sys/random.h>
@@ -68,8 +68,9 @@ Result<void> Channel::upgrade(const std::atomic<bool>& cancelled) {
   const auto head = answerTo(upgradeRequest(host_, random.nonce), cancelled);
   if (!head) return std::unexpected(head.error());
   if (acceptsUpgrade(*head, random.nonce)) return {};
-  return fail(ErrorCode::Unsupported,
-              "what answers there is no Haply Inverse service; check inverse3:HOST:PORT (the service's is 10001)");
+  return fail(
+      ErrorCode::Unsupported,
+      "the program that answers there is no Haply Inverse service; check inverse3:HOST:PORT (the service's is 10001)");
 }
 
 // Returns the answer's head; what follows it is left to the reader of frames.
@@ -95,7 +96,7 @@ Result<std::string> Channel::answerTo(const std::string& request, const std::ato
     if (head.size() > kMostHead) break;
     if (*bytes == 0) clock_.sleepUntil(clock_.now() + 1ms);
   }
-  return fail(ErrorCode::Unsupported, "what answers there is no web service; check inverse3:HOST:PORT");
+  return fail(ErrorCode::Unsupported, "the program that answers there is no web service; check inverse3:HOST:PORT");
 }
 
 Result<void> Channel::listen() RELIEVO_RT {
@@ -123,7 +124,7 @@ void Channel::reply(const Message& control) RELIEVO_RT {
   }
 }
 
-// A message more than were sent answers none of them.
+// An answer without a message that waits for it answers none.
 std::optional<Duration> Channel::answered() RELIEVO_RT {
   if (answered_ == sent_.load(std::memory_order_acquire)) return std::nullopt;
   const Duration sent(sent_at_[answered_++ % kTimes].load(std::memory_order_relaxed));

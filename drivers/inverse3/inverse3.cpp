@@ -100,7 +100,7 @@ class Inverse3 final : public HapticDevice {
       clock_.sleepUntil(clock_.now() + kTick);
     }
     return fail(ErrorCode::Unsupported,
-                "what answers there does not speak as the Haply Inverse service 3.1 to 3.5 does");
+                "the program that answers there does not speak the protocol of the Haply Inverse service 3.1 to 3.5");
   }
 
   Result<void> greet() {
@@ -169,7 +169,7 @@ class Inverse3 final : public HapticDevice {
     bool ready = true;
     Duration age{0};
   };
-  // The newest answer with a position. An answer to nothing may be an old one: it is not believed.
+  // The newest answer with a position. An answer to no message may be an old one, and is ignored.
   Result<std::optional<News>> hear() RELIEVO_RT {
     if (auto heard = channel_.listen(); !heard) return std::unexpected(heard.error());
     std::optional<News> newest;

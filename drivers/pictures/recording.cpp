@@ -120,7 +120,7 @@ void Timing::noteGaps() {
   const std::int64_t all = leading.back().value - leading.front().value + 1;
   const std::int64_t absent = all - static_cast<std::int64_t>(leading.size());
   if (absent == 0) return;
-  notes.push_back(print("%lld of the numbers %lld to %lld %s: the picture before %s stays for its time",
+  notes.push_back(print("%lld of the numbers %lld to %lld %s: the picture before %s is shown longer",
                         static_cast<long long>(absent), static_cast<long long>(leading.front().value),
                         static_cast<long long>(leading.back().value), absent == 1 ? "is missing" : "are missing",
                         absent == 1 ? "it" : "each"));
@@ -184,11 +184,10 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.notes = std::move(timing.notes);
   if (counted && !frames_per_s && leading.size() > 1) {
     recording.notes.push_back(
-        photos
-            ? print("the names have nothing in common, as those of photos: each stands for %.0f s; give one of them to "
-                    "play it alone, --fps F for a film",
-                    1 / rate)
-            : print("the names tell no times: %.0f pictures a second assumed; --fps F changes that", rate));
+        photos ? print("the file names have nothing in common, as of photos: each is shown for %.0f s; give one of "
+                       "them to play it alone, --fps F for a film",
+                       1 / rate)
+               : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }
   recording.views = found.views;
   if (both && !found.views)

@@ -186,7 +186,7 @@ class PicturesSource final : public MediaSource {
     std::uint64_t told = 1;
     while (told < missed) told *= 10;
     if (told != missed) return;
-    log(LogLevel::Warning, "media", "%s: %s; the picture before it stays for its time%s", path.c_str(), why,
+    log(LogLevel::Warning, "media", "%s: %s; the picture before it is shown longer%s", path.c_str(), why,
         missed > 1 ? print(" (%llu pictures so far)", static_cast<unsigned long long>(missed)).c_str() : "");
   }
 

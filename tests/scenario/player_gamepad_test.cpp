@@ -107,7 +107,7 @@ TEST_F(PlayerOnAGamepad, FeelsTheFilmInItsRumbleAndRestsInAPause) {
   player.send(SIGTERM);
   EXPECT_EQ(player.wait(), 0) << said();
   EXPECT_FALSE(pad.hasEffects());
-  EXPECT_THAT(said(), testing::HasSubstr("no device of 1 kHz and three axes"));
+  EXPECT_THAT(said(), testing::HasSubstr("not a 1 kHz three-axis device"));
 
   const double sent = 65535 * usualForce(folder_ / "t.csv") / 4;
   EXPECT_NEAR(strong, sent, 0.02 * sent);
