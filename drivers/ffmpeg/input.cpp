@@ -81,7 +81,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
 }
 
-// What FFmpeg opens itself stays null: what is remote, and names that are patterns.
+// `file` stays null for sources that FFmpeg opens itself: remote ones, and names that are patterns.
 Result<void> Input::openFile(const Address& address, AVIOContext*& file) {
   reads_files_ = address.way == Way::File;
   if (!reads_files_) return {};

@@ -114,7 +114,7 @@ constexpr std::array<UnreadFormat, 10> kUnread{{
     {"# .PCD"sv, kCloud},
     {"EVENTS1"sv,
      "it is a recording of Kinect Studio; write its depth as 16-bit pictures in mm, such as KinectXEFTools does"},
-    // A build with their readers gives these to them.
+    // A build that has the readers of these formats passes the files to them.
     {"#ROSBAG V"sv, "it is a ROS bag, which this relievo was built without; build it with -DRELIEVO_ROSBAG=ON"},
     {"NI10"sv, "it is a recording of OpenNI, which this relievo was built without; build it with -DRELIEVO_OPENNI=ON"},
 }};

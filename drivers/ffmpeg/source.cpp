@@ -159,7 +159,7 @@ class FfmpegSource final : public MediaSource {
     return 0;
   }
 
-  // A subtitle that begins before the place sought is not read, and may be what lasts to the film's end.
+  // A subtitle that begins before the sought position is not read, and may be what lasts until the film's end.
   Duration missingTime() const noexcept override { return sought_ && hasSubtitles() ? Duration(0) : end_.missing(); }
 
   bool hasSubtitles() const noexcept {

@@ -42,7 +42,7 @@ class Gamepad final : public HapticDevice {
   Gamepad(const Gamepad&) = delete;
   Gamepad& operator=(const Gamepad&) = delete;
 
-  // Rumble has no newtons: the peak is what presses it fully. How strong a wheel is, nobody says.
+  // Rumble has no force in newtons: the peak is the force that drives it fully. A wheel's strength is not published.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     const double rate_hz = rateWithin(kRateHz, kRateHz);
     return {.name = "gamepad",
@@ -149,7 +149,7 @@ class Gamepad final : public HapticDevice {
   PadEffects effects_;
   PadFinger finger_;
   bool has_gain_ = false, has_centring_ = false;
-  bool told_ = false;  // what kind of device it is
+  bool told_ = false;  // the device's kind has been logged
   EventReports reports_;
   glm::dvec3 force_n_{0};
   MonotonicTime now_, last_write_, contact_since_;

@@ -115,7 +115,8 @@ class GstreamerDecoder final : public VideoDecoder {
   Result<bool> takePicture(Frame& frame) {
     for (;;) {
       const SamplePtr sample = next_ ? std::move(next_) : pipeline_->pull(Duration(0));
-      if (const auto failed = pipeline_->failure()) return std::unexpected(*failed);  // the picture may be of after it
+      if (const auto failed = pipeline_->failure())
+        return std::unexpected(*failed);  // the picture may come from after the failure
       if (!sample) return false;
       const GstBuffer* const buffer = gst_sample_get_buffer(sample.get());
       const auto pts = answered(*buffer);

@@ -24,7 +24,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kBetweenLooks = 20ms;  // at `cancelled`
-constexpr int kMostLooks = 100;       // then nobody answers
+constexpr int kMostLooks = 100;       // after so many, nobody answers
 
 constexpr const char* kNobody =
     "no Haply Inverse service answers there; start it (systemctl start haply-inverse-service, or open the Haply Hub) "

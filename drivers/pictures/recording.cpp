@@ -82,7 +82,7 @@ Duration usualStep(const std::vector<TimedPicture>& pictures) {
   return *middle;
 }
 
-// Both series of a recording, and what is said of them.
+// Both series of a recording, and the notes about them.
 struct Timing {
   NameKind kind = NameKind::Ranks;
   Series color, depth;

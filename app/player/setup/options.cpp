@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands of `relievo`, and how a command line becomes options.
+// The commands of `relievo`, and the conversion of a command line to options.
 #include "app/player/setup/options.h"
 
 #include <CLI/CLI.hpp>
