@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// Any colour picture, by its own matrix and range; gray has three equal parts.
+// Converts any colour picture, by its own matrix and range; gray gets three equal components.
 [[nodiscard]] RawPicture rawOf(const Frame& frame);
 
 }  // namespace relievo

@@ -84,7 +84,7 @@ class Filler {
     }
     return plane.slope();
   }
-  // What the row before it (in the order of the sweep) gives, then along the row in both directions.
+  // Spreads from the row before it (in the order of the sweep), then along the row in both directions.
   void sweepRow(int r, int down) {
     const int before = r - down;
     if (before >= 0 && before < map_.rows) {

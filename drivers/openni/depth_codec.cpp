@@ -9,10 +9,10 @@
 namespace relievo::openni {
 namespace {
 
-constexpr unsigned kNoStep = 6;  // half a byte: the value falls by it, less 6
+constexpr unsigned kNoStep = 6;  // half byte of a zero difference: the difference is 6 minus the half byte
 constexpr unsigned kLargestHalf = 12;
 constexpr unsigned kPadding = 0xd;  // the second half of the last byte
-constexpr unsigned kRepeat = 0xe;   // the first half: the second says how often two samples repeat the value
+constexpr unsigned kRepeat = 0xe;   // first half byte; the second says how often two samples repeat the value
 constexpr unsigned kMore = 0xf;     // a larger step, or a value, follows
 constexpr unsigned kIsStep = 0x80, kNoLargeStep = 192;
 

@@ -126,7 +126,7 @@ void Timing::noteGaps() {
                         absent == 1 ? "it" : "each"));
 }
 
-// The latest time, 285 years, is for slow rates of great numbers.
+// Limited to 285 years, in case large numbers meet a slow rate.
 Duration timeAfter(std::int64_t periods, double period_ns) {
   constexpr long double kLatest = 9e18L;
   return Duration(

@@ -115,7 +115,7 @@ class PicturesSource final : public MediaSource {
     std::erase_if(color.tags, [](const auto& tag) { return tag.first.starts_with("DEPTH_"); });  // they say its depth
   }
 
-  // Not a file that is too large: what describes it may read it whole.
+  // Checks the size first, since the function that describes a file may read it whole.
   Result<StreamInfo> describePicture(const std::string& path) {
     if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while opening pictures");
     const auto file = AnsweredFile::open(path);

@@ -36,7 +36,7 @@ class PictureError {
   // Pixels where `counted` is 0 are left out; it is as long as the picture has pixels.
   void add(const PictureDifference& difference, std::span<const std::uint8_t> counted);
 
-  [[nodiscard]] double psnrDb() const;      // without end where all pixels are the same
+  [[nodiscard]] double psnrDb() const;      // infinite if all pixels are equal
   [[nodiscard]] double similarity() const;  // the mean SSIM: 1 for the same pictures
   [[nodiscard]] std::size_t pixels() const { return pixels_; }
 

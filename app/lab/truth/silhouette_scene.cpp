@@ -126,8 +126,8 @@ glm::dvec3 SilhouetteScene::colorOf(Part part, double x, double y) const {
   return kColors[part] * (lit * pattern(glm::dvec2(x, y) - origins_[part]));
 }
 
-// On each sheet: from a height to the line's place there, and on to the sheet's height at that place. Lines are a fifth
-// as slanted as sheets are steep, so that it settles.
+// For each sheet, iterates: from a height to the line's position there, and on to the sheet's height at that position.
+// Lines are a fifth as slanted as sheets are steep, so the iteration converges.
 glm::dvec3 SilhouetteScene::colorAlong(const glm::dvec3& front, const glm::dvec3& back) const {
   constexpr int kMostSteps = 40;
   constexpr double kCloseMm = 1e-4;

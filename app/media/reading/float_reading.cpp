@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint32_t kTop = 0xffff;
 constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
 constexpr double kMmPerMetre = 1000;
-constexpr double kFarthestMetres = 200;   // half of the samples beyond: millimetres
+constexpr double kFarthestMetres = 200;   // if half of the samples are beyond this, the numbers are millimetres
 constexpr double kLeastCentimetres = 20;  // a scene that is nearer is rare
 constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
 // Disparities whose largest is more than so many times their smallest are relative: 0 does not mean infinitely far.

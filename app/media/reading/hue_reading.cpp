@@ -25,7 +25,7 @@ struct HueCount {
   std::array<std::uint64_t, kSteps + 1> of{};
   std::uint64_t lit = 0;
 
-  // Red counts too, although a relief has holes there.
+  // Counts red, too, although it is a hole in a relief.
   explicit HueCount(const Frame& depth) {
     const ColorSamples colors(depth);
     const ColorCurve& curve = curveOf(DepthCode::Hue);

@@ -138,7 +138,8 @@ bool Sound::listen(MediaClock& clock, const FilmFeed& feed, MonotonicTime now) {
   }
   run_->heard = true;
   run_->last = **heard;
-  const MediaTime film = clock.position(run_->last.time).value_or(MediaTime{}) - delay_;  // it plays: there is one
+  const MediaTime film =
+      clock.position(run_->last.time).value_or(MediaTime{}) - delay_;  // the clock has a position while the film plays
   const double offset_s = toSeconds(window_->timeOf(run_->base + run_->last.frames) - film) + picture_late_s_;
   ++run_->readings;
   run_->offset_s += (offset_s - run_->offset_s) * std::max(1.0 / run_->readings, kSmoothing);
