@@ -67,7 +67,7 @@ std::string meaningOf(const PlayerCommand& command) {
     return command.value > 0 ? "begin again at the end" : "do not restart at the end";
   }
   if (command.verb == PlayerVerb::FullScreen && command.value != 0) {
-    return command.value > 0 ? "the whole screen" : "out of full screen";
+    return command.value > 0 ? "show full screen" : "leave full screen";
   }
   if (command.verb == PlayerVerb::Layout && !command.word.empty()) return "show stereo as " + command.word;
   return entry.meaning;

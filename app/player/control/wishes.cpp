@@ -78,7 +78,7 @@ Deeds stepBack(const Situation& s) {
 Deeds seekShare(double share, const Situation& s) {
   if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
   if (!nextState(s.state, PlayerEvent::Seek)) return {};
-  return {note("this film's length is not known", "a percentage cannot be sought")};
+  return {note("this film's length is not known", "cannot seek to a percentage of it")};
 }
 
 Deeds previous(const Situation& s) {
