@@ -169,6 +169,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"aligned_depth", "mm"},  // RealSense's; OpenLORIS has TUM's layout
       {".depth.png", "mm"},
       {"/depth_bw/", "near-dark"},
+      {"/mist/", "near-dark"},  // Blender's pass: from 0 at its start to 1 in the distance
       {"scannet", "scannet"},
       {"record3d", "record3d"},
       {"worlddepth", "unreal"},

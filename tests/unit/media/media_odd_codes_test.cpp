@@ -163,15 +163,18 @@ TEST(OddCodes, AKindOfSixteenBitsMayBeSaidOfFewer) {
   }
 }
 
-// Marigold's folder of gray pictures.
-TEST(OddCodes, NearIsDarkInAFolderOfMarigold) {
-  TemporaryFolder folder;
-  std::filesystem::create_directories(folder / "depth_bw");
-  makeClip(folder / "depth_bw/a_pred.png",
-           {track("png", "gray16be", [](int, int c, int r, int) { return rounded(25 * distanceMm(c, r)); })});
-  const OpenedFilm film = openFilm({.url = folder / "depth_bw/a_pred.png"});
-  EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow);
-  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
+// Marigold's folder of gray pictures, and Blender's mist pass.
+TEST(OddCodes, NearIsDarkInFoldersOfMarigoldAndOfMist) {
+  for (const char* name : {"depth_bw", "mist"}) {
+    TemporaryFolder folder;
+    std::filesystem::create_directories(folder / name);
+    const std::string picture = (folder / name) + "/a_pred.png";
+    makeClip(picture,
+             {track("png", "gray16be", [](int, int c, int r, int) { return rounded(25 * distanceMm(c, r)); })});
+    const OpenedFilm film = openFilm({.url = picture});
+    EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow) << name;
+    EXPECT_EQ(film.info.packing, Packing::DepthAlone) << name;
+  }
 }
 
 TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
