@@ -2,6 +2,8 @@
 #include "drivers/ffmpeg/file_times.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "drivers/ffmpeg/container.h"
 #include "platform/log.h"
@@ -22,6 +24,28 @@ constexpr std::int64_t kTailBytes = 65536;  // tables and padding behind the las
 // As of now; 0 if unknown.
 std::int64_t bytesOf(const AVFormatContext& context) noexcept {
   return context.pb == nullptr ? 0 : std::max<std::int64_t>(avio_size(context.pb), 0);
+}
+
+// Fills `out` with what stands in the file from `position` on; the container then reads on where it was. False if not
+// as many bytes can be read.
+bool readAt(const AVFormatContext& context, std::int64_t position, std::span<std::uint8_t> out) noexcept {
+  AVIOContext* const file = context.pb;
+  if (file == nullptr || (file->seekable & AVIO_SEEKABLE_NORMAL) == 0 || position < 0) return false;
+  const int error = file->error;
+  const std::int64_t before = avio_tell(file);
+  const int bytes = static_cast<int>(out.size());
+  const bool all = avio_seek(file, position, SEEK_SET) >= 0 && avio_read(file, out.data(), bytes) == bytes;
+  avio_seek(file, before, SEEK_SET);
+  file->error = error;
+  return all;
+}
+
+// As a copy leaves it that was broken off on a file system which had given it its size. A whole film may end in null
+// packets, padding, or in what another program has added.
+bool endsInZeros(const AVFormatContext& context, std::int64_t bytes) noexcept {
+  std::array<std::uint8_t, 4096> last{};
+  const auto size = static_cast<std::int64_t>(last.size());
+  return readAt(context, bytes - size, last) && std::ranges::all_of(last, [](std::uint8_t byte) { return byte == 0; });
 }
 
 }  // namespace
@@ -75,14 +99,14 @@ void FileEnd::reach(const AVFormatContext& context) noexcept {
   const bool told = one && context.duration > 0 && (stated || bytesOf(context) < bytes_);
   const Duration end = told ? lengthOf(context, start_) : Duration(0);
   const bool is_multiplex = one && (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
-  missing_ = std::max(end - latest_, is_multiplex ? unread() : Duration(0));
+  missing_ = std::max(end - latest_, is_multiplex ? unread(context) : Duration(0));
   if (missing_ <= kWholeWithin) missing_ = Duration(0);
 }
 
-// The time for which the bytes behind the last packet would last, at the file's mean bit rate.
-Duration FileEnd::unread() const noexcept {
+// The time for which the bytes behind the last packet that were never written would last, at the mean bit rate.
+Duration FileEnd::unread(const AVFormatContext& context) const noexcept {
   const std::int64_t rest = bytes_ - read_;
-  if (read_ <= 0 || rest < kTailBytes || rest < bytes_ / 50) return Duration(0);
+  if (read_ <= 0 || rest < kTailBytes || rest < bytes_ / 50 || !endsInZeros(context, bytes_)) return Duration(0);
   return fromSeconds(toSeconds(latest_) * static_cast<double>(rest) / static_cast<double>(read_));
 }
 

@@ -43,7 +43,7 @@ class FileEnd {
   [[nodiscard]] Duration missing() const noexcept { return missing_; }
 
  private:
-  [[nodiscard]] Duration unread() const noexcept;
+  [[nodiscard]] Duration unread(const AVFormatContext& context) const noexcept;
 
   Duration start_{0};
   Duration latest_{0};  // end of all packets read so far, from `start_` on

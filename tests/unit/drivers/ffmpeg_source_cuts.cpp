@@ -92,6 +92,28 @@ TEST(FfmpegSource, TellsThatATransportStreamEndsInWhatIsNone) {
   EXPECT_LT(toSeconds(source->missing()), 2 - there);
 }
 
+// 48 pictures are 2 s. What a sender, a recorder or another program puts behind a film is none of it.
+TEST(FfmpegSource, AMultiplexWithATailThatIsNoPictureIsWhole) {
+  std::string nulls, padding, noise;  // of 180 KB: ISO/IEC 13818-1, 2.4.3.3 and 2.4.3.7
+  for (int i = 0; i < 1000; ++i) nulls += std::string("\x47\x1f\xff\x10", 4) + std::string(184, '\xff');
+  for (int i = 0; i < 90; ++i) padding += std::string("\0\0\1\xbe\x07\xfa", 6) + std::string(2042, '\xff');
+  for (unsigned i = 0, x = 1; i < 180'000; ++i, x = x * 1664525U + 1013904223U) noise += static_cast<char>(x >> 24U);
+  const std::vector<std::pair<const char*, const std::string*>> films{
+      {"nulls.ts", &nulls}, {"noise.ts", &noise}, {"padding.mpg", &padding}, {"noise.mpg", &noise}};
+  TemporaryFolder folder;
+  for (const auto& [name, tail] : films) {
+    const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
+    makeClip(folder / name, {large});
+    std::ofstream(folder / name, std::ios::binary | std::ios::app) << *tail;
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_EQ(readAll(*source).size(), 48U) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+    ASSERT_TRUE(source->seek(MediaTime{}).has_value()) << name;
+    EXPECT_EQ(readAll(*source).size(), 48U) << name << ", once more";
+  }
+}
+
 // FFmpeg passes over a segment that it cannot open.
 TEST(FfmpegSource, TellsThatAPartOfAListIsGone) {
   TemporaryFolder folder;
