@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <string_view>
 
 #include "drivers/ffmpeg/container.h"
+#include "drivers/ffmpeg/library.h"
 #include "platform/log.h"
 
 extern "C" {
@@ -46,6 +48,29 @@ bool endsInZeros(const AVFormatContext& context, std::int64_t bytes) noexcept {
   std::array<std::uint8_t, 4096> last{};
   const auto size = static_cast<std::int64_t>(last.size());
   return readAt(context, bytes - size, last) && std::ranges::all_of(last, [](std::uint8_t byte) { return byte == 0; });
+}
+
+// By the pictures that an AVI file's header counts; 0 for another container. Of a cut file FFmpeg has shortened the
+// stated length by the bytes that are left.
+Duration countedLength(const AVFormatContext& context) noexcept {
+  Duration longest{0};
+  if (context.iformat->name != std::string_view("avi")) return longest;
+  for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
+    if (kindOf(*stream) != StreamKind::Video) continue;
+    longest = std::max(longest, durationFrom(stream->nb_frames, stream->time_base));
+  }
+  return longest;
+}
+
+// Where the file ends at `bytes` within the picture behind `read` of a Y4M film, that picture's time; else 0.
+Duration brokenPicture(const AVFormatContext& context, std::int64_t read, std::int64_t bytes) noexcept {
+  constexpr std::string_view kFrame = "FRAME";
+  std::array<std::uint8_t, kFrame.size()> begin{};
+  if (context.iformat->name != std::string_view("yuv4mpegpipe") || read <= 0 || read >= bytes) return Duration(0);
+  const auto there = std::min(bytes - read, static_cast<std::int64_t>(begin.size()));
+  const std::span some = std::span(begin).first(static_cast<std::size_t>(there));
+  if (!readAt(context, read, some) || !std::ranges::equal(some, kFrame.substr(0, some.size()))) return Duration(0);
+  return durationFrom(1, context.streams[0]->time_base);
 }
 
 }  // namespace
@@ -97,10 +122,10 @@ void FileEnd::reach(const AVFormatContext& context) noexcept {
   const bool one = context.nb_programs < 2;
   const bool stated = context.duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
   const bool told = one && context.duration > 0 && (stated || bytesOf(context) < bytes_);
-  const Duration end = told ? lengthOf(context, start_) : Duration(0);
+  const Duration end = std::max(told ? lengthOf(context, start_) : Duration(0), countedLength(context));
   const bool is_multiplex = one && (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
   missing_ = std::max(end - latest_, is_multiplex ? unread(context) : Duration(0));
-  if (missing_ <= kWholeWithin) missing_ = Duration(0);
+  if (missing_ <= kWholeWithin) missing_ = brokenPicture(context, read_, bytes_);
 }
 
 // The time for which the bytes behind the last packet that were never written would last, at the mean bit rate.

@@ -14,7 +14,8 @@ void tell(Notes& notes, std::uint64_t count, const char* what) {
 
 void tellMissing(Notes& notes, const std::string& url, Duration missing) {
   if (missing <= Duration(0)) return;
-  notes.push_back(url + print(" ends %.1f s early: truncated or damaged", toSeconds(missing)));
+  const int digits = missing < std::chrono::milliseconds(100) ? 2 : 1;
+  notes.push_back(url + print(" ends %.*f s early: truncated or damaged", digits, toSeconds(missing)));
 }
 
 // ITU-T H.273.

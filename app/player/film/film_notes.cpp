@@ -81,7 +81,9 @@ void FilmNotes::slow() {
 void FilmNotes::missing(const PairCounters& pairs) {
   const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
     if (missing <= Duration(0)) return;
-    journal_.note(print("%s ends %.1f s too early: truncated or damaged", url.c_str(), toSeconds(missing)), done);
+    const int digits = missing < std::chrono::milliseconds(100) ? 2 : 1;
+    journal_.note(print("%s ends %.*f s too early: truncated or damaged", url.c_str(), digits, toSeconds(missing)),
+                  done);
   };
   if (pairs.damaged > 0) {
     journal_.note(

@@ -57,6 +57,43 @@ TEST(FfmpegSource, TellsHowMuchOfACutFileIsMissing) {
   }
 }
 
+// 50 pictures are 2 s. Of a cut file with sound FFmpeg shortens the stated length.
+TEST(FfmpegSource, TellsHowMuchIsMissingOfACutAviWithSound) {
+  TemporaryFolder folder;
+  const ClipTrack track{.codec = "mjpeg", .pix_fmt = "yuvj420p", .fps_num = 25, .frames = 50};
+  makeClip(folder / "a.avi", {track}, {}, {{.codec = "pcm_s16le", .length = std::chrono::seconds(2)}});
+  for (const double part : {1.0, 0.6}) {
+    cutFile(folder / "a.avi", part);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / "a.avi").has_value()) << part;
+    const auto packets = readAll(*source);
+    const auto pictures = std::ranges::count(packets, 0, &Packet::stream);
+    const double missing = 2 - static_cast<double>(pictures) / 25;
+    EXPECT_EQ(missing > 0.5, part < 1) << pictures;
+    EXPECT_NEAR(toSeconds(source->missing()), missing, part < 1 ? 0.1 : 0) << part;
+  }
+}
+
+// Of 100 ms each. Whether whole pictures are missing behind the last one cannot be known.
+TEST(FfmpegSource, TellsThatAY4mFileEndsWithinAPicture) {
+  TemporaryFolder folder;
+  std::string film = "YUV4MPEG2 W16 H8 F10:1 Cmono\n";
+  for (int i = 0; i < 3; ++i) film += "FRAME\n" + std::string(128, static_cast<char>('a' + i));
+  const auto missing = [&](const std::string& content) {
+    writeFile(folder / "a.y4m", content);
+    const auto source = makeFfmpegSource();
+    if (!source->open(folder / "a.y4m").has_value()) return Duration(-1);
+    readAll(*source);
+    return source->missing();
+  };
+  for (const std::size_t less : {1U, 70U, 128U, 131U, 133U}) {
+    EXPECT_EQ(missing(film.substr(0, film.size() - less)), std::chrono::milliseconds(100)) << less;
+  }
+  EXPECT_EQ(missing(film), Duration(0));
+  EXPECT_EQ(missing(film.substr(0, film.size() - 134)), Duration(0)) << "two whole pictures";
+  EXPECT_EQ(missing(film + "\n"), Duration(0)) << "no picture begins there";
+}
+
 // 48 pictures are 2 s. A multiplex states no length: its last time was read when it was opened.
 TEST(FfmpegSource, TellsHowMuchIsMissingOfAMultiplexThatIsCutWhileItIsRead) {
   TemporaryFolder folder;
