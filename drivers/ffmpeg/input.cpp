@@ -15,6 +15,7 @@
 #include "drivers/ffmpeg/refusal.h"
 #include "hal/media/video_decoder.h"
 #include "platform/log.h"
+#include "platform/told_count.h"
 
 namespace relievo::ffmpeg {
 namespace {
@@ -56,7 +57,8 @@ Result<Input::Opened> Input::open(const std::string& url) {
   open_file_ = std::exchange(context->io_open, openCounted);
   close_file_ = std::exchange(context->io_close2, closeAny);
   url_ = url;
-  opens_ = lost_ = 0;
+  opens_ = 0;
+  lost_ = 0;
   tells_lost_ = false;
   AVIOContext* file = nullptr;
   if (const auto opened = openFile(*address, file); !opened) {
@@ -112,15 +114,12 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg skips segments of a list that it cannot open. Only the first, tenth, hundredth, .. are reported.
+// FFmpeg skips segments of a list that it cannot open.
 void Input::tellLost(const char* part) {
-  ++lost_;
-  int told = 1;
-  while (told < lost_) told *= 10;
-  if (told != lost_) return;
+  if (!isTold(++lost_)) return;
   if (lost_ == 1)
     log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part);
-  else log(LogLevel::Warning, "media", "%s: %d of its parts cannot be opened and are left out", url_.c_str(), lost_);
+  else log(LogLevel::Warning, "media", "%s: %u of its parts cannot be opened and are left out", url_.c_str(), lost_);
 }
 
 int Input::closeAny(AVFormatContext* context, AVIOContext* file) {

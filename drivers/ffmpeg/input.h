@@ -58,8 +58,8 @@ class Input {
   bool reads_files_ = false;
   int opens_ = 0;
   bool tells_lost_ = false;
-  int lost_ = 0;   // parts that could not be opened while it was read
-  UniqueFd pipe_;  // outlives the container that reads from it
+  unsigned lost_ = 0;  // parts that could not be opened while it was read
+  UniqueFd pipe_;      // outlives the container that reads from it
 };
 
 }  // namespace relievo::ffmpeg

@@ -18,6 +18,7 @@
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 #include "platform/print.h"
+#include "platform/told_count.h"
 
 namespace relievo {
 namespace {
@@ -180,12 +181,9 @@ class PicturesSource final : public MediaSource {
     return entry;
   }
 
-  // Of many, the tenth, hundredth, .. are told.
   void tellMissed(const std::string& path, const char* why) const {
     const std::uint64_t missed = missedPictures();
-    std::uint64_t told = 1;
-    while (told < missed) told *= 10;
-    if (told != missed) return;
+    if (!isTold(missed)) return;
     log(LogLevel::Warning, "media", "%s: %s; the picture before it is shown longer%s", path.c_str(), why,
         missed > 1 ? print(" (%llu pictures so far)", static_cast<unsigned long long>(missed)).c_str() : "");
   }

@@ -14,6 +14,9 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include "platform/told_count.h"
 
 namespace relievo {
 namespace {
@@ -34,6 +37,14 @@ class LevelGuard {
 TEST(Log, PrintsOneLineWithItsArea) {
   EXPECT_EQ(printedBy([] { log(LogLevel::Info, "media", "%d frames in %s", 25, "x.mkv"); }),
             "relievo: media: 25 frames in x.mkv\n");
+}
+
+TEST(Log, OfManyEventsTheFirstTenthAndHundredthAreTold) {
+  std::vector<int> told;
+  for (int count = 1; count <= 2000; ++count) {
+    if (isTold(static_cast<std::uint64_t>(count))) told.push_back(count);
+  }
+  EXPECT_EQ(told, (std::vector<int>{1, 10, 100, 1000}));
 }
 
 TEST(Log, NamesTheProgram) {
