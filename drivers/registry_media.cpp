@@ -59,7 +59,7 @@ bool holdsTwoLayers(const StreamInfo& stream) {
   return layers != stream.tags.end() && layers->second == "2" && ffmpegDecodesBothViews();
 }
 
-// Hardware leaves an alpha channel out, and the second of two views.
+// Hardware decoders omit an alpha channel and the second of two views.
 bool isLeftToSoftware(const StreamInfo& stream) {
   return isMock(stream) || isV4l2Raw(stream) || pictureFormat(stream) || saysAlpha(stream) || holdsTwoLayers(stream);
 }
@@ -70,7 +70,7 @@ std::unique_ptr<VideoDecoder> withSoftwareBehind(std::vector<std::unique_ptr<Vid
   return decoders.size() == 1 ? std::move(decoders.front()) : makeFailoverDecoder(std::move(decoders));
 }
 
-// A decoder that was asked for by its name.
+// Adds the software decoder behind one that was requested by name.
 std::unique_ptr<VideoDecoder> backed(std::unique_ptr<VideoDecoder> decoder, const StreamInfo& stream) {
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   if (!isLeftToSoftware(stream)) decoders.push_back(std::move(decoder));

@@ -21,7 +21,7 @@
 namespace relievo::drivers {
 namespace {
 
-// Opens what was made and closes it again.
+// Opens a device and closes it again.
 template <class Device, class... Setup>
 DeviceState lookAt(const char* kind, const char* name, const Outcome<std::unique_ptr<Device>>& made,
                    const Setup&... setup) {

@@ -34,7 +34,7 @@ double dpiOf(void* x11) noexcept {
 }  // namespace
 
 int desktopScale() noexcept {
-  constexpr double kUsualDpi = 96, kNearly = 0.25;  // 168 dpi are taken for twice as many
+  constexpr double kUsualDpi = 96, kNearly = 0.25;  // kNearly: from 168 dpi on, the scale is 2, not 1
   constexpr double kMost = 8;
   const char* const driver = SDL_GetCurrentVideoDriver();
   if (driver == nullptr || std::string_view(driver) != "x11") return 1;

@@ -7,7 +7,7 @@
 namespace relievo::kms {
 namespace {
 
-// The sizes that HDMI 1.4a names for it; others, such as 480 rows, would need pictures of their own shape.
+// The sizes that HDMI 1.4a defines for frame packing; others, such as 480 rows, would need their own picture layout.
 bool hasPackedSize(const drmModeModeInfo& mode) noexcept {
   return (mode.hdisplay == 1920 && mode.vdisplay == 1080) || (mode.hdisplay == 1280 && mode.vdisplay == 720);
 }

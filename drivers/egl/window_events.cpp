@@ -125,7 +125,7 @@ void WindowDisplay::moveMouse(int x, int y) noexcept {
   publishMouse();
 }
 
-// Where no eye sees the scene, the mouse keeps its last position.
+// Where the mouse is over no view of the scene, its last ray is kept.
 void WindowDisplay::publishMouse() noexcept {
   int width = 0, height = 0;
   SDL_GetWindowSize(window_, &width, &height);

@@ -146,12 +146,12 @@ struct SignPair {
   SDL_Keycode sign;
   std::uint16_t code;
 };
-// The signs that no key of the USA has without shift.
+// Characters that a US keyboard has only with shift.
 constexpr SignPair kSigns[] = {
     {SDLK_HASH, KEY_NUMERIC_POUND}, {SDLK_QUESTION, KEY_QUESTION}, {SDLK_LESS, KEY_PREVIOUS},
     {SDLK_GREATER, KEY_NEXT},       {SDLK_PLUS, KEY_KPPLUS},       {SDLK_ASTERISK, KEY_KPASTERISK},
 };
-// With shift, on the keys of the USA.
+// The characters of a US keyboard's keys with shift.
 constexpr SignPair kShifted[] = {
     {SDLK_3, KEY_NUMERIC_POUND}, {SDLK_SLASH, KEY_QUESTION}, {SDLK_COMMA, KEY_PREVIOUS}, {SDLK_PERIOD, KEY_NEXT}};
 

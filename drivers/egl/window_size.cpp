@@ -72,8 +72,8 @@ void WindowDisplay::leaveByHand() noexcept {
   SDL_SetWindowPosition(window_, before_.x, before_.y);
 }
 
-// Larger on a desktop that draws everything larger. Smaller in its own shape where it has not so much room: a frame
-// and a title around the window, of up to 1/14 of a screen 600 high, take some of what the desktop's bars leave.
+// Sets the window's size in pixels: enlarged by the desktop's scale, then shrunk in its own shape if the screen is too
+// small. The window's frame and title take space too: up to 1/14 of a screen of 600 rows.
 void WindowDisplay::takeSize(int width, int height) noexcept {
   constexpr double kRoomAcross = 0.95, kRoomDown = 0.92;
   const int enlarged = desktopScale();

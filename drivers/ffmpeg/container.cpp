@@ -29,7 +29,7 @@ constexpr std::uint32_t kAuxiliaryVideo = 0x1e;
 
 // Azure Kinect's code for 16-bit gray in big endian, which FFmpeg takes for RGB of 15 bits.
 constexpr std::uint32_t kGray16Big = MKTAG('b', '1', '6', 'g');
-// Of raw AVI, as cameras write it; likewise.
+// Raw AVI's code for 16-bit gray in little endian, as cameras write it; FFmpeg misreads it as well.
 constexpr std::uint32_t kGray16Little = MKTAG('Y', '1', '6', ' ');
 
 Duration framePeriodOf(const AVStream& stream) noexcept {
@@ -45,7 +45,7 @@ std::string layoutOf(const AVChannelLayout& layout) {
   return known ? text.data() : "";
 }
 
-// What the container says beside the stream, of at least `bytes`; null if it does not.
+// The side data that the container stores for a stream; null if absent or shorter than `bytes`.
 const std::uint8_t* besideStream(const AVStream& stream, AVPacketSideDataType type, std::size_t bytes) noexcept {
 #if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)  // FFmpeg 6.1
   const AVCodecParameters& parameters = *stream.codecpar;

@@ -192,7 +192,7 @@ class FfmpegDecoder final : public VideoDecoder {
     views_ = {};
   }
 
-  // Each codec of FFmpeg reads these at each picture.
+  // FFmpeg's codecs read these fields anew for each picture.
   void leaveOut(bool unreferenced) noexcept override {
     context_->skip_frame = unreferenced ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
   }

@@ -17,13 +17,13 @@ extern "C" {
 namespace relievo::ffmpeg {
 namespace {
 
-constexpr Duration kReordering = std::chrono::seconds(1);  // behind a jump FFmpeg gives out decoding times that fall
+constexpr Duration kReordering = std::chrono::seconds(1);  // after a jump, FFmpeg returns decreasing decoding times
 constexpr Duration kAnyGap = std::chrono::hours(24 * 365);
 // A container's duration may include a last picture longer than its packet, or sound that a codec adds at the end.
 constexpr Duration kWholeWithin = std::chrono::milliseconds(250);
 constexpr std::int64_t kTailBytes = 65536;  // tables and padding behind the last packet of a multiplex are shorter
 
-// As of now; 0 if unknown.
+// The file's present size; 0 if unknown.
 std::int64_t bytesOf(const AVFormatContext& context) noexcept {
   return context.pb == nullptr ? 0 : std::max<std::int64_t>(avio_size(context.pb), 0);
 }

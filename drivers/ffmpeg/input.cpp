@@ -77,7 +77,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   FormatPtr owned(context);
   watch_.begin(kOpenPatience, late);
   const int found = findStreams(*context);
-  const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // of a slow network enough may be known
+  const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // a slow stream may be known enough
   if (found < 0 || gave_up) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
   if (isTextArt(*context)) return std::unexpected(refusal(*address, AVERROR_INVALIDDATA, {}));
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};

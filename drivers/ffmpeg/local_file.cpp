@@ -75,7 +75,7 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     av_free(buffer);
     return fail(ErrorCode::Exhausted, "out of memory while opening the source", ENOMEM);
   }
-  static_cast<void>(local.release());  // closeLocalFile
+  static_cast<void>(local.release());  // freed by closeLocalFile
   return context;
 }
 

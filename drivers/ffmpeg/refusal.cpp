@@ -33,7 +33,7 @@ std::string headOf(const std::string& path) {
 constexpr const char* kCloud =
     "it is a point cloud; relievo plays depth pictures: give the recording that it was made from";
 
-// By the ending, where files of several kinds begin alike or in no fixed way.
+// Formats that are known by their file name extension, since their files have no fixed beginning or share one.
 struct UnreadEnding {
   std::string_view ending;
   const char* line;

@@ -35,7 +35,8 @@ constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save i
 constexpr std::size_t kTagPackets = 512;      // searched for a key frame of each stream
 constexpr std::size_t kFlowTagPackets = 128;  // of a real-time stream: about as many as opening has read
 constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
-// A gap from lost data is waited out; in a real-time stream that time has already passed.
+// A longer gap in the times counts as a jump and is closed. A shorter one is lost data: the player waits for its
+// length, unless the stream is in real time, where that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
 constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
 

@@ -15,7 +15,7 @@ namespace {
 using namespace ffmpeg;
 
 constexpr const char* kNoMemory = "out of memory in the subtitle decoder";
-constexpr std::uint32_t kForever = 0xffffffff;  // FFmpeg's word for an end that is not known
+constexpr std::uint32_t kForever = 0xffffffff;  // FFmpeg's value for an unknown end
 
 // Old files without a mark of their encoding: each byte that is no UTF-8 is taken for Latin-1.
 bool isUtf8(const std::uint8_t* data, std::size_t bytes) noexcept {

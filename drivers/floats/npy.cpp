@@ -62,7 +62,7 @@ std::optional<std::vector<std::uint64_t>> readShape(std::string_view text) {
   return std::nullopt;
 }
 
-// Rows and columns, one or three components behind them, the pictures before them.
+// Accepts rows and columns, one or three components after them, and the number of pictures before them.
 bool arrange(std::vector<std::uint64_t> shape, Header& header) {
   if (shape.size() >= 3 && (shape.back() == 1 || shape.back() == 3)) {
     header.components = shape.back();

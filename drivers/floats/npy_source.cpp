@@ -17,7 +17,7 @@ std::vector<std::uint8_t> beginningOf(const AnsweredFile& file, std::size_t byte
   return begin;
 }
 
-// A npy file's bytes before its numbers, for one picture of a film.
+// The header of an npy file that holds one picture of the film.
 std::string headerFor(const npy::Header& h) {
   const std::string text =
       print("{'descr': '%c%c%d', 'fortran_order': %s, 'shape': (%llu, %llu, %llu), }\n", h.type.swapped ? '>' : '<',

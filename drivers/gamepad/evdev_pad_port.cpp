@@ -34,7 +34,7 @@ Opened openNode(const std::string& path) {
   return {std::move(fd), error};
 }
 
-// Its data, or zeros.
+// The codes that the device reports for an event type; none on failure.
 template <std::size_t Codes>
 InputCodes<Codes> codesOf(int fd, unsigned type) {
   InputCodes<Codes> codes;
@@ -42,7 +42,7 @@ InputCodes<Codes> codesOf(int fd, unsigned type) {
   return codes;
 }
 
-// Nothing for a node that is not an input device.
+// Nullopt if the node is not an input device.
 std::optional<PadFacts> ask(int fd) {
   std::array<char, 256> name{};
   if (::ioctl(fd, EVIOCGNAME(name.size() - 1), name.data()) < 0) return std::nullopt;

@@ -23,7 +23,8 @@ std::int16_t levelOf(double share) RELIEVO_RT {
   return static_cast<std::int16_t>(std::lround(kFullLevel * std::clamp(share, -1.0, 1.0)));
 }
 
-// Pushes with `share` at `at`; returns what it cannot: the centre cannot lie beyond the stick's end.
+// Makes the axis push with `share` at position `at`; returns the rest of the push, which it cannot produce because the
+// centre cannot lie beyond the stick's end.
 double lay(SpringLevel::Axis& spring, double at, double share) RELIEVO_RT {
   if (levelOf(share) == 0) return 0;
   const double center = std::clamp(at + share, -1.0, 1.0);
@@ -32,7 +33,7 @@ double lay(SpringLevel::Axis& spring, double at, double share) RELIEVO_RT {
   return share - (center - at);
 }
 
-// Drivers of wheels are used to one direction and a sign; two axes need the direction.
+// Wheel drivers expect a fixed direction and a signed level; with two axes, the direction varies.
 ConstantLevel constantOf(const glm::dvec2& share, int axes) RELIEVO_RT {
   const std::int16_t level = axes == 1 ? levelOf(-share.x) : levelOf(glm::length(share));
   if (level == 0) return {};

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// A descriptor, negated and less one without a centring.
+// `listed` holds descriptors fd; -fd - 1 for a device without a centring spring.
 constexpr int kFree = 0x7fffffff;
 constexpr std::uint16_t kMostEffects = 16;  // more than this driver makes
 std::array<std::atomic<int>, 4> listed{kFree, kFree, kFree, kFree};

@@ -18,15 +18,15 @@ namespace {
 using namespace gstreamer;
 
 constexpr int kMaxHeldFrames = 64;  // beyond a hardware element's buffers, frames are copies
-// Packets inside without a picture: what H.264 may put out of order and a few on the way. An element that needs more,
-// such as one of many threads, gets more.
+// Packets inside without a picture: H.264's reordering and a few more. An element that needs more, such as one with
+// many threads, gets more.
 constexpr std::size_t kUsuallyInside = 20, kMoreInside = 8, kMostInside = 64;
-constexpr std::uint64_t kFarthest = 16;  // pictures that H.264 and HEVC may put between a packet and its turn
+constexpr std::uint64_t kFarthest = 16;  // pictures by which H.264 and HEVC may delay a picture
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
 // How long the element may do nothing while it has work; the first time it may have to start its device.
 constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::milliseconds(800);
 constexpr Duration kTurn = std::chrono::milliseconds(20), kHungry = std::chrono::milliseconds(60);
-// Media times may be slightly negative, which GStreamer's cannot.
+// GStreamer's times cannot be negative; media times can, slightly.
 constexpr Duration kTimeOffset = std::chrono::hours(1000);
 
 constexpr const char* kHangs = "the GStreamer element stopped responding";
@@ -135,8 +135,8 @@ class GstreamerDecoder final : public VideoDecoder {
     }
   }
 
-  // The time of the packet that the picture is of; nullopt if none is known. Those that should have come before it
-  // are lost.
+  // The time of the packet that yielded the picture; nullopt if unknown. Packets that should have yielded theirs long
+  // before are counted as damaged.
   std::optional<MediaTime> answered(const GstBuffer& buffer) {
     const GstClockTime time = GST_BUFFER_PTS(&buffer);
     const auto found = std::find_if(inside_.begin(), inside_.end(), [&](auto& i) { return toPipeline(i.pts) == time; });

@@ -50,7 +50,7 @@ struct Stop {
   static void forget(gpointer given) { delete static_cast<std::shared_ptr<Stop>*>(given); }
 };
 
-// Tells the decoder that rows may be padded and pictures cut by their reader, and how many buffers that one keeps.
+// Tells the decoder that its reader accepts padded rows, crops the pictures itself, and keeps a number of buffers.
 GstPadProbeReturn answerAllocation(GstPad*, GstPadProbeInfo* info, gpointer) {
   GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
   if (GST_QUERY_TYPE(query) != GST_QUERY_ALLOCATION) return GST_PAD_PROBE_OK;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the stereo pair in a HEIF file's groups of entities (ISO/IEC 14496-12, 8.15.3: grpl), which libheif does not
-// tell.
+// report.
 #include <algorithm>
 #include <string_view>
 

@@ -190,7 +190,7 @@ class Inverse3 final : public HapticDevice {
     return 1e3 * fromService(position_m - centre_m_);
   }
 
-  // False if it comes too late, or no hand can have moved so: the position is that of the tick before.
+  // False if the answer is too late, or if the motion is too fast for a hand; the position then stays the previous one.
   bool follow(const News& news) RELIEVO_RT {
     const MonotonicTime asked = clock_.now() - news.age;
     if (news.age > kPatience || !gate_.accept(news.position_mm, asked, news.age)) return false;

@@ -69,7 +69,7 @@ std::optional<double> JsonCursor::number() RELIEVO_RT {
   }
   const std::string_view text = numeral();
   double value = 0;
-  // Neither allocates nor asks for the locale. Out of range: as if absent.
+  // from_chars neither allocates nor uses the locale. A number out of its type's range counts as absent.
   if (!good_ || std::from_chars(text.data(), text.data() + text.size(), value).ec != std::errc()) return std::nullopt;
   return value;
 }

@@ -16,7 +16,7 @@ constexpr unsigned kRepeat = 0xe;   // first half byte; the second says how ofte
 constexpr unsigned kMore = 0xf;     // a larger step, or a value, follows
 constexpr unsigned kIsStep = 0x80, kNoLargeStep = 192;
 
-// Puts values one after another; with a table, the values at these places of it.
+// Writes decoded values in order; with a table, each value is an index into the table.
 class Samples {
  public:
   Samples(std::span<std::uint16_t> out, std::span<const std::uint8_t> table) noexcept : out_(out), table_(table) {}

@@ -144,7 +144,7 @@ Result<std::vector<Node>> findNodes(const RecordFile& file, const std::atomic<bo
     if (record->op == Op::Picture) {
       if (std::exchange(first, false) && readTables(file, nodes)) break;
       if (Node* const node = findNode(nodes, record->node)) addPicture(file, *node, *record, at);
-    } else if (first) {  // what a picture is does not change
+    } else if (first) {  // later records do not change a node's format
       addRecord(file, nodes, *record);
     }
     at = record->end;

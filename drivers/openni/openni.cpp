@@ -30,7 +30,7 @@ class OpenniSource final : public MediaSource {
   ~OpenniSource() override { close(); }
 
  private:
-  // A picture of the film, and of which node.
+  // A picture of the film, and the node that it comes from.
   struct Place {
     std::uint64_t record;
     std::int64_t time_us;

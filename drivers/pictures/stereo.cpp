@@ -31,7 +31,7 @@ constexpr std::array<Layout, 8> kLayouts{{
     {"imgl", "imgr", {"displ", "disp", "depthl", "depth"}, ""},
     {"image_2", "image_3", {}, ""},
 }};
-// Those with numbers first.
+// In the order of preference, formats of floating-point numbers first.
 constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
 
 std::string stemOf(const std::string& name) {

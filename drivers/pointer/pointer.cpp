@@ -31,7 +31,7 @@ class Pointer final : public HapticDevice {
   Pointer(const Pointer&) = delete;
   Pointer& operator=(const Pointer&) = delete;
 
-  // The forces are those of a small device, for the picture; without motors any stiffness is stable.
+  // These are the figures of a small device, used to compute the picture; without motors any stiffness is stable.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     return {.name = "pointer",
             .workspace_min_mm = min_mm_,
@@ -121,7 +121,7 @@ class Pointer final : public HapticDevice {
     if (event.type == EV_KEY) turn(event.code, event.value != 0);
   }
 
-  // The finger is on the line of sight, at its own height, which goes with a deeper volume.
+  // Keeps the finger on the line of sight, at its own height, which is shifted when the volume becomes deeper.
   void follow(const SceneRay& ray) RELIEVO_RT {
     max_mm_.z += ray.depth_mm - depth_mm_;
     place_mm_.z += ray.depth_mm - depth_mm_;

@@ -58,7 +58,8 @@ std::optional<std::array<double, kLensCoefficients>> lensOf(const CameraMessage&
   return lens;
 }
 
-// RealSense stores each stream's pose to a reference: maps the reference's points to the stream's.
+// RealSense stores each stream's pose relative to a reference stream: the motion that maps the reference's points to
+// the stream's.
 struct Pose {
   std::string reference;
   Motion motion;

@@ -21,7 +21,7 @@ Role roleOf(const std::string& topic, const PictureKind& kind) {
   if (any({"infra", "/ir", "_ir"})) return Role::Infrared;
   if (any({"confidence", "mask", "label", "disparity"})) return Role::Other;
   if (kind.distances) return any({"amplitude", "intensity"}) ? Role::Infrared : Role::Depth;
-  // A picture of the depth, for people to look at.
+  // A coloured image of the depth, made for viewing.
   if (any({"depth"}) && !any({"rgb", "color", "colour"})) return Role::Other;
   return Role::Color;
 }

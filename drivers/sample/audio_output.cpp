@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound output: a buffer that empties in real time. A driver for a card converts the state of the card's own buffer to
-// the same answers.
+// Sound output: a buffer that empties in real time. A driver of a real card computes the same values from the state of
+// the card's own buffer.
 #include <algorithm>
 
 #include "drivers/sample/sample.h"

@@ -23,7 +23,7 @@ std::optional<std::array<std::uint8_t, N>> bytesAt(const AnsweredFile& file, std
   return file.read(at, bytes).value_or(0) == N ? std::optional(bytes) : std::nullopt;
 }
 
-// Follows the frames from `at`; `next` reads the head of one, whose pictures come right behind it.
+// Reads the frames from `at` on; `next` reads one frame's head, which its pictures follow at once.
 template <class ReadHead>
 Result<void> listFrames(Scan& scan, std::uint64_t end, std::uint64_t count, std::uint64_t at,
                         const std::atomic<bool>& cancelled, const ReadHead& read_head) {

@@ -21,7 +21,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct Entry {
   std::uint16_t tag = 0, type = 0;
   std::uint32_t count = 0;
-  std::array<std::uint8_t, 4> value{};  // or where it lies
+  std::array<std::uint8_t, 4> value{};  // or the value's offset in the file
 };
 
 // Numbers of a file, which may have its high bytes first.
@@ -118,7 +118,7 @@ bool areAlike(const Directory& a, const Directory& b, const Order& order) noexce
          });
 }
 
-// Appends the pieces of the picture to `page`: where each begins there.
+// Appends the picture's pieces to `page`; returns the offset of each there.
 std::optional<std::vector<std::uint32_t>> appendPieces(const AnsweredFile& file, const std::vector<std::uint32_t>& at,
                                                        const std::vector<std::uint32_t>& bytes, Bytes& page) {
   if (at.size() != bytes.size()) return std::nullopt;
@@ -132,7 +132,7 @@ std::optional<std::vector<std::uint32_t>> appendPieces(const AnsweredFile& file,
   return places;
 }
 
-// The value of an entry, as the page alone has it.
+// The value that the entry has in a file of this page alone.
 std::optional<Bytes> newValueOf(const AnsweredFile& file, const Directory& directory, Entry& entry, const Order& order,
                                 Bytes& page) {
   if (entry.tag != kStrips && entry.tag != kTiles) return valueOf(file, entry, order);

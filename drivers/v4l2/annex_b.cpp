@@ -89,7 +89,7 @@ CodingProfile avcProfile(Bytes set) noexcept {
 CodingProfile hevcProfile(Bytes set) noexcept {
   constexpr int kMain = 1;
   BitReader reader(set.subspan(2));
-  static_cast<void>(reader.bits(8 + 3));  // the video's set, its layers; space and tier
+  static_cast<void>(reader.bits(8 + 3));  // video set id, sub-layers; profile space and tier
   const auto profile = static_cast<int>(reader.bits(5));
   return {.profile = profile, .plain = profile == kMain};
 }

@@ -185,7 +185,7 @@ class M2mDecoder final : public VideoDecoder {
     draining_ = true;
     return {};
   }
-  // The answer is ignored: if the driver is busy with an earlier command or does not know this one, `wait` times out.
+  // The result is ignored: if the driver is busy with an earlier command or does not know this one, `wait` times out.
   void tellDrain() {
     if (std::exchange(drain_told_, true)) return;
     v4l2_decoder_cmd stop{};

@@ -62,7 +62,7 @@ std::optional<Layout> layoutOf(AVCodecContext& context, const AVFrame& picture) 
   return layout;
 }
 
-// Cleared, as FFmpeg's own are.
+// Zeroed, as FFmpeg zeroes its own buffers.
 AVBufferRef* newBlock(std::size_t bytes) noexcept {
   auto* const begin = static_cast<std::uint8_t*>(av_malloc(bytes));
   if (begin == nullptr) return nullptr;
@@ -104,7 +104,7 @@ int PictureMemory::getBuffer(AVCodecContext* context, AVFrame* picture, int flag
 AVBufferRef* PictureMemory::block(std::size_t bytes) noexcept {
   const std::scoped_lock lock(mutex_);
   if (!pool_ || bytes_ != bytes) {
-    pool_.reset(av_buffer_pool_init(bytes, newBlock));  // those of the last size are freed as their pictures go
+    pool_.reset(av_buffer_pool_init(bytes, newBlock));  // the old pool's buffers are freed with their pictures
     bytes_ = bytes;
   }
   return pool_ ? av_buffer_pool_get(pool_.get()) : nullptr;

@@ -26,8 +26,8 @@ std::optional<int> viewOf(const AVFrame& picture) noexcept {
   return *reinterpret_cast<const int*>(data->data);
 }
 
-// The coded pictures say it of each view (3D reference displays; H.265, G.14.2.3), mp4's box `eyes`, which FFmpeg adds
-// to each picture, of both together.
+// Two sources: an SEI message in each view's coded picture (3D reference displays; H.265, G.14.2.3), or mp4's box
+// `eyes`, which is about both views and which FFmpeg adds to each picture.
 SaidEye saidEye(const AVFrame& base) noexcept {
   SaidEye said;
   for (int i = 0; i < base.nb_side_data; ++i) {
