@@ -9,6 +9,7 @@
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/library.h"
 #include "platform/log.h"
+#include "platform/told_count.h"
 
 extern "C" {
 #include <libavformat/avformat.h>
@@ -96,6 +97,17 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
   } else if (packet.pts) {
     *packet.pts += mended_by_;
   }
+}
+
+void FileGaps::note(const Packet& packet, Duration length, const std::string& url) {
+  if (!packet.dts || length <= Duration(0)) return;
+  const auto end = ends_.try_emplace(packet.stream, *packet.dts).first;
+  const Duration gap = *packet.dts - end->second;
+  if (gap > kWholeWithin && isTold(++gaps_)) {
+    log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be opened", url.c_str(),
+        toSeconds(gap), toSeconds(end->second));
+  }
+  end->second = *packet.dts + length;
 }
 
 void FileEnd::open(const AVFormatContext& context, Duration start) noexcept {

@@ -28,6 +28,19 @@ class FileTimes {
   Duration mended_by_{0};  // since `begin`
 };
 
+// What is missing within a DASH film: FFmpeg passes over a segment that it cannot open.
+class FileGaps {
+ public:
+  // At the beginning, or after a seek.
+  void begin() noexcept { ends_.clear(); }
+  // Tells a gap before the packet, of many the tenth, hundredth, .. `url` names the film in the log.
+  void note(const Packet& packet, Duration length, const std::string& url);
+
+ private:
+  std::map<int, MediaTime> ends_;  // of each stream's last packet, by decoding time
+  unsigned gaps_ = 0;
+};
+
 // How much of a film is missing behind what could be read.
 class FileEnd {
  public:

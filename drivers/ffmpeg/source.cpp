@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <span>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -64,6 +65,7 @@ class FfmpegSource final : public MediaSource {
     end_.open(context, start_);
     sought_ = false;
     times_.begin();
+    gaps_.begin();
     chooseProgramme(context);
     leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
     earliest_stream_ = earliestStream(context, leading_stream_);
@@ -194,7 +196,9 @@ class FfmpegSource final : public MediaSource {
     out.pts = timeOf(packet->pts, stream);
     out.dts = timeOf(packet->dts, stream);
     if (origin().longest_gap == Duration(0)) times_.mend(out, url_);
-    end_.note(out, durationFrom(packet->duration, stream.time_base), packet->pos);
+    const Duration length = durationFrom(packet->duration, stream.time_base);
+    if (context_->iformat->name == std::string_view("dash")) gaps_.note(out, length, url_);
+    end_.note(out, length, packet->pos);
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
     return out;
@@ -212,6 +216,7 @@ class FfmpegSource final : public MediaSource {
     watch_.begin(kReadPatience, lateReading(address_.way));
     ahead_.clear();
     times_.begin();
+    gaps_.begin();
     end_.seek(target);
     const bool to_beginning = target <= MediaTime{};
     sought_ = !to_beginning;
@@ -257,6 +262,7 @@ class FfmpegSource final : public MediaSource {
   Duration start_{0};    // the container's start time
   bool sought_ = false;  // since it was opened, and not to the beginning
   FileTimes times_;
+  FileGaps gaps_;
   FileEnd end_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -165,6 +166,27 @@ TEST(FfmpegSource, TellsThatAPartOfAListIsGone) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(readAll(*source).size(), 96U);
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("list.m3u8: its part file:" + folder / "gone.ts"));
+}
+
+// Three segments of 1 s, the second of which is gone.
+TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
+  TemporaryFolder folder;
+  const std::string make = "cd '" + folder / "" +
+                           "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=10:d=3 -c:v libx264 -g 10 "
+                           "-seg_duration 1 -f dash a.mpd";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  for (const std::size_t pictures : {30U, 20U}) {
+    if (pictures < 30) std::filesystem::remove(folder / "chunk-stream0-00002.m4s");
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / "a.mpd").has_value());
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(readAll(*source).size(), pictures);
+    ASSERT_TRUE(source->seek(mediaTime(2.5)).has_value());
+    readAll(*source);
+    const std::string told = testing::internal::GetCapturedStderr();
+    if (pictures == 30) EXPECT_EQ(told, "");
+    else EXPECT_THAT(told, testing::EndsWith("a.mpd: 1.0 s at 0.8 s are missing: a part of it cannot be opened\n"));
+  }
 }
 
 // 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
