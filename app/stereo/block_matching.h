@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Semi-global matching by OpenCV, seen from both eyes.
+// Semi-global matching by OpenCV, seen from both eyes: for a shot's range, and as what the author's depth is held
+// against. The depth itself comes from QuickMatching, which keeps more steps where the outlines are.
 #pragma once
 
 #include <opencv2/core.hpp>

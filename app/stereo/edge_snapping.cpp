@@ -19,6 +19,7 @@ constexpr int kReach = 6;  // pixels: of the neighbours that are examined
 constexpr int kWidth = 2 * kReach + 1;
 constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is examined
 constexpr int kNear = 5;           // pixels: as far a step may lie from its outline
+constexpr float kLeap = 2;         // pixels of disparity between neighbours: a step is near
 constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
 constexpr float kColor = 12;       // levels: of a colour's likeness
 constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
@@ -90,7 +91,7 @@ class Snapper {
   }
   [[nodiscard]] bool leaps(int c, int r, int across, int down) const {
     if (c + across >= map_.cols || r + down >= map_.rows) return false;
-    return std::abs(map_.pixels[map_.at(c + across, r + down)] - map_.pixels[map_.at(c, r)]) > 1;
+    return std::abs(map_.pixels[map_.at(c + across, r + down)] - map_.pixels[map_.at(c, r)]) > kLeap;
   }
   [[nodiscard]] cv::Mat nearSteps() const {
     cv::Mat steps(map_.rows, map_.cols, CV_8U);

@@ -8,12 +8,16 @@
 #include "app/stereo/block_matching.h"
 #include "app/stereo/edge_snapping.h"
 #include "app/stereo/hole_filling.h"
+#include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/quick/sub_pixel.h"
 
 namespace relievo {
 namespace {
 
 constexpr float kHighest = 65535;
+// Not OpenCV's semi-global matcher: on the sample film and two still lifes it loses up to twice as many steps, and up
+// to two thirds more pixels are wrong by over two pixels.
+constexpr MatchingRule kRule{.step = 80, .least_step = 25, .by_color = true, .diagonals = true};
 
 std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, DisparityRange range) {
   auto codes = std::make_shared<std::vector<std::uint16_t>>(map.size());
@@ -32,7 +36,7 @@ std::shared_ptr<std::vector<std::uint16_t>> flatCodes(std::size_t size) {
 }  // namespace
 
 DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
-  DisparityMap map = matchFromBoth(left, right, range);
+  DisparityMap map = QuickMatching(kRule).match(left, right, range);
   fillHoles(map, left);
   snapEdges(map, left, right);
   SubPixel().refine(map, left, right);

@@ -2,6 +2,7 @@
 #include "app/stereo/quick/quick_matching.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -13,12 +14,11 @@ constexpr float kNothing = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kVector = 8;   // costs
 constexpr int kReach = 2;            // pixels: of the census
 constexpr std::int16_t kSlope = 12;  // cost of a disparity's change by one, in bits of the census
-constexpr int kStep = 150;           // of a greater one, where the picture is even
-constexpr int kLeastStep = 40;       // of a greater one, at an outline
-constexpr int kOutline = 20;         // levels between neighbours at which a step costs half
+constexpr int kOutline = 20;         // levels between neighbours at which a greater one costs half
 constexpr float kAgree = 1;          // pixels
 constexpr int kSpeckOf = 2000;       // a smaller part of the picture is a speck
 constexpr std::int16_t kHigh = 8000;
+constexpr std::array kAcross{0, 1, -1};  // columns: where paths from another row come from
 
 std::uint32_t bitsIn(std::uint32_t word) noexcept {
   word -= word >> 1 & 0x55555555U;
@@ -45,10 +45,6 @@ std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const 
   return lowest;
 }
 
-std::int16_t stepCost(int a, int b) noexcept {
-  return static_cast<std::int16_t>(std::max(kLeastStep, kStep * kOutline / (kOutline + std::abs(a - b))));
-}
-
 }  // namespace
 
 const DisparityMap& QuickMatching::match(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
@@ -57,6 +53,7 @@ const DisparityMap& QuickMatching::match(const ViewPicture& left, const ViewPict
   lumaOf(right, right_luma_);
   takeCensus(left_luma_, left_census_);
   takeCensus(right_luma_, right_census_);
+  takeSteps(left);
   downward();
   upward();
   removeSpecks();
@@ -69,11 +66,17 @@ void QuickMatching::prepare(const ViewPicture& left, DisparityRange range) {
   levels_ = (wanted() + kVector - 1) / kVector * kVector;
   costs_.resize(map_.size() * levels_);
   sums_.assign(map_.size() * levels_, 0);
-  // A row of paths, each with a high cost on both sides, and the least cost of each.
-  before_.assign(static_cast<std::size_t>(map_.cols) * (levels_ + 2 * kVector), kHigh);
-  now_.assign(2 * (levels_ + 2 * kVector), kHigh);
+  before_.assign((rule_.diagonals ? kAcross.size() : 1) * static_cast<std::size_t>(map_.cols) * stride(), kHigh);
+  now_.assign(2 * stride(), kHigh);
+  none_.assign(stride(), kHigh);
+  std::fill_n(&none_[kVector], levels_, Cost{0});
+  none_.back() = 0;
   reversed_.resize(static_cast<std::size_t>(map_.cols) + 2 * levels_ +
                    2 * static_cast<std::size_t>(std::max({std::abs(range.lowest), std::abs(range.highest), 1})));
+}
+
+std::size_t QuickMatching::stride() const noexcept {
+  return levels_ + 2 * kVector;
 }
 
 void QuickMatching::takeCensus(const std::vector<std::uint8_t>& luma, Census& census) const {
@@ -93,6 +96,28 @@ void QuickMatching::takeCensus(const std::vector<std::uint8_t>& luma, Census& ce
       }
     }
   }
+}
+
+void QuickMatching::takeSteps(const ViewPicture& left) {
+  const auto last = map_.cols - 1;
+  const auto take = [&](std::vector<Cost>& costs, int across, int down) {
+    costs.resize(map_.size());
+    for (int r = 0; r < map_.rows; ++r) {
+      for (int c = 0; c <= last; ++c)
+        costs[map_.at(c, r)] =
+            stepCost(left.pixel(c, r), left.pixel(std::clamp(c + across, 0, last), std::max(r + down, 0)));
+    }
+  };
+  take(beside_, -1, 0);
+  take(above_[1], 0, -1);
+  if (!rule_.diagonals) return;
+  take(above_[0], -1, -1);
+  take(above_[2], 1, -1);
+}
+
+QuickMatching::Cost QuickMatching::stepCost(const std::uint8_t* a, const std::uint8_t* b) const noexcept {
+  const int levels = rule_.by_color ? unlikeness(a, b) : std::abs(a[0] - b[0]);
+  return static_cast<Cost>(std::max(rule_.least_step, rule_.step * kOutline / (kOutline + levels)));
 }
 
 // Reversed, the right view's words lie in the order of rising disparity. Beyond its sides its border is repeated.
@@ -116,13 +141,13 @@ void QuickMatching::downward() {
     costsOfRow(r);
     alongRow(r, 1);
     alongRow(r, -1);
-    fromRowBefore(r, r == 0);
+    fromRow(r - 1, r);
   }
 }
 
 void QuickMatching::upward() {
   for (int r = map_.rows - 1; r >= 0; --r) {
-    fromRowBefore(r, r == map_.rows - 1);
+    fromRow(r + 1, r);
     chooseInRow(r);
     checkRow(r);
   }
@@ -132,32 +157,36 @@ void QuickMatching::alongRow(int r, int step) {
   std::int16_t *before = &now_[kVector], *now = &now_[levels_ + 3 * kVector];
   std::fill(before, before + levels_, std::int16_t{0});
   std::int16_t least = 0;
-  const std::uint8_t* const luma = &left_luma_[map_.at(0, r)];
   const int begin = step > 0 ? 0 : map_.cols - 1, end = step > 0 ? map_.cols : -1;
   for (int c = begin; c != end; c += step) {
-    const std::int16_t change = stepCost(luma[c], luma[c == begin ? c : c - step]);
+    const Cost change = beside_[map_.at(c == begin ? c : std::max(c, c - step), r)];
     least = continuePath(before, least, &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
     std::swap(before, now);
   }
 }
 
 // In the order of the sweep: down, then up.
-void QuickMatching::fromRowBefore(int r, bool first) {
-  const std::size_t stride = levels_ + 2 * kVector;
-  std::int16_t* const now = &now_[kVector];
-  for (int c = 0; c < map_.cols; ++c) {
-    std::int16_t* const path = &before_[static_cast<std::size_t>(c) * stride + kVector];
-    std::int16_t& least = path[levels_ + kVector - 1];
-    if (first) {
-      std::fill(path, path + levels_, std::int16_t{0});
-      least = 0;
-    }
-    const int other = first ? r : last_row_;
-    const std::int16_t change = stepCost(left_luma_[map_.at(c, r)], left_luma_[map_.at(c, other)]);
-    least = continuePath(path, least, &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
-    std::copy(now, now + levels_, path);
+void QuickMatching::fromRow(int other, int r) {
+  const std::size_t row = static_cast<std::size_t>(map_.cols) * stride(), count = before_.size() / row;
+  for (std::size_t i = 0; i < count; ++i) fromRow(other, r, kAcross[i], &before_[i * row]);
+}
+
+// In an order in which each path is read before it is written.
+void QuickMatching::fromRow(int other, int r, int across, Cost* paths) {
+  const bool inside = other >= 0 && other < map_.rows;
+  Cost* const now = &now_[kVector];
+  const auto sideways = static_cast<std::size_t>(1 + (other < r ? across : -across));
+  for (int i = 0; i < map_.cols; ++i) {
+    const int c = across < 0 ? map_.cols - 1 - i : i, x = c + across;
+    const bool begins = !inside || x < 0 || x >= map_.cols;
+    const auto pathOf = [&](int col) { return paths + static_cast<std::size_t>(col) * stride() + kVector; };
+    const Cost* const from = begins ? &none_[kVector] : pathOf(x);
+    const Cost step = begins ? Cost{0} : above_[sideways][other < r ? map_.at(c, r) : map_.at(x, other)];
+    const std::size_t end = levels_ + kVector - 1;
+    const Cost least = continuePath(from, from[end], &costs_[cell(c, r)], step, now, &sums_[cell(c, r)], levels_);
+    std::copy(now, now + levels_, pathOf(c));
+    pathOf(c)[end] = least;
   }
-  last_row_ = r;
 }
 
 // The least sum, interpolated between two disparities if its neighbours allow it.

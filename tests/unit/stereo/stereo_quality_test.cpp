@@ -161,12 +161,12 @@ TEST(StereoQuality, OfTheSampleFilmAsTwoCodedViews) {
     const Both both = compare("sample at " + std::to_string(static_cast<int>(t_s)) + " s", readView(views.color),
                               readView(views.right), plan.shots[0].range, moment.truth);
     EXPECT_LT(both.ours.median, 0.25);
-    EXPECT_LE(both.ours.lost_edges, 0.2);
+    EXPECT_LE(both.ours.lost_edges, 0.09);
     ours += both.ours.wrong;
     alone += both.alone.wrong;
   }
-  EXPECT_LE(ours / 2, 0.02);
-  EXPECT_LE(ours, 0.8 * alone);
+  EXPECT_LE(ours / 2, 0.013);
+  EXPECT_LE(ours, 0.38 * alone);
 }
 
 Truth readDisparity(const std::string& path) {
@@ -199,7 +199,7 @@ void compareStill(const std::string& name) {
   }
   const Both both = compare(name, readPicture(folder + "/im2.png"), readPicture(folder + "/im6.png"), {0, 60},
                             readDisparity(folder + "/disp2.pgm"));
-  EXPECT_LE(both.ours.wrong, 0.8 * both.alone.wrong);
+  EXPECT_LE(both.ours.wrong, 0.56 * both.alone.wrong);
 }
 
 TEST(StereoQuality, OfMiddleburysCones) {
