@@ -66,7 +66,7 @@ void QuickMatching::prepare(const ViewPicture& left, DisparityRange range) {
   levels_ = (wanted() + kVector - 1) / kVector * kVector;
   costs_.resize(map_.size() * levels_);
   sums_.assign(map_.size() * levels_, 0);
-  before_.assign((rule_.diagonals ? kAcross.size() : 1) * static_cast<std::size_t>(map_.cols) * stride(), kHigh);
+  before_.assign(pathsFromRow() * static_cast<std::size_t>(map_.cols) * stride(), kHigh);
   now_.assign(2 * stride(), kHigh);
   none_.assign(stride(), kHigh);
   std::fill_n(&none_[kVector], levels_, Cost{0});
@@ -167,21 +167,22 @@ void QuickMatching::alongRow(int r, int step) {
 
 // In the order of the sweep: down, then up.
 void QuickMatching::fromRow(int other, int r) {
-  const std::size_t row = static_cast<std::size_t>(map_.cols) * stride(), count = before_.size() / row;
-  for (std::size_t i = 0; i < count; ++i) fromRow(other, r, kAcross[i], &before_[i * row]);
+  const std::size_t row = static_cast<std::size_t>(map_.cols) * stride();
+  for (std::size_t i = 0; i < pathsFromRow(); ++i) fromRow(other, r, kAcross[i], &before_[i * row]);
 }
 
 // In an order in which each path is read before it is written.
 void QuickMatching::fromRow(int other, int r, int across, Cost* paths) {
   const bool inside = other >= 0 && other < map_.rows;
   Cost* const now = &now_[kVector];
-  const auto sideways = static_cast<std::size_t>(1 + (other < r ? across : -across));
+  const int sideways = 1 + (other < r ? across : -across);
+  const std::vector<Cost>& steps = above_[static_cast<std::size_t>(sideways)];
   for (int i = 0; i < map_.cols; ++i) {
     const int c = across < 0 ? map_.cols - 1 - i : i, x = c + across;
     const bool begins = !inside || x < 0 || x >= map_.cols;
     const auto pathOf = [&](int col) { return paths + static_cast<std::size_t>(col) * stride() + kVector; };
     const Cost* const from = begins ? &none_[kVector] : pathOf(x);
-    const Cost step = begins ? Cost{0} : above_[sideways][other < r ? map_.at(c, r) : map_.at(x, other)];
+    const Cost step = begins ? Cost{0} : steps[other < r ? map_.at(c, r) : map_.at(x, other)];
     const std::size_t end = levels_ + kVector - 1;
     const Cost least = continuePath(from, from[end], &costs_[cell(c, r)], step, now, &sums_[cell(c, r)], levels_);
     std::copy(now, now + levels_, pathOf(c));

@@ -51,6 +51,7 @@ class QuickMatching {
     const int count = range_.highest - range_.lowest + 1;
     return static_cast<std::size_t>(count);
   }
+  [[nodiscard]] std::size_t pathsFromRow() const noexcept { return rule_.diagonals ? 3 : 1; }
   // Of a pixel's paths, with a high cost on both sides and the least cost at the end.
   [[nodiscard]] std::size_t stride() const noexcept;
   [[nodiscard]] std::size_t cell(int c, int r) const noexcept { return map_.at(c, r) * levels_; }
