@@ -46,7 +46,7 @@ constexpr const char* kFooter =
     "    relievo-author --color v4l2:/dev/video4 --depth v4l2:/dev/video2 --registration rig.toml -o film.mkv\n"
     "  convert a film with colour above and hue-coded depth below, giving its depth range:\n"
     "    relievo-author --color desk.mov --packing tb --depth-code hue --calibration near=520,far=1260 -o desk.mp4\n"
-    "  make depth for a 3D film that has two views and none:\n"
+    "  make depth for a 3D film that has two views and no depth:\n"
     "    relievo-author --color holiday-3d.mkv --depth-from stereo -o film.mkv\n"
     "  guess depth for a film of one view:\n"
     "    relievo-author --color holiday.mp4 --depth-from midas-small.onnx -o film.mkv\n"

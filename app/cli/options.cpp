@@ -170,8 +170,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       "--depth;\n"
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
       "round; alpha: in its alpha channel;\ndepth-alone: the picture is depth, without colour;\n"
-      "stereo-sbs, stereo-tb, stereo-tracks: two views without depth, the left eye's left, on top, or in the first of "
-      "two tracks; each eye is shown its own");
+      "stereo-sbs, stereo-tb, stereo-tracks: two views without depth; the left eye's is on the left, on top, or in the "
+      "first of two tracks; each eye is shown its own");
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "

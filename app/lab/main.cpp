@@ -162,7 +162,7 @@ int parseAndRun(int argc, char** argv) {
       "  relievo-lab report --quick --out charts      all charts in a few minutes, with charts/index.html as the "
       "overview\n"
       "  relievo-lab trace --help                     one finger, one film, one method, tick by tick\n"
-      "\nIn the charts, `god-object` is the method relievo on triangles, the paper's surface: a converged proxy;\n"
+      "\nIn the charts, `god-object` is the method relievo on the paper's triangles: a converged proxy;\n"
       "`god-object-smoothed` is the same on depth whose frames are smoothed first; `bullet` is a god-object on "
       "the\n"
       "height field of the Bullet library. A name such as `relievo hold` is a method with one part replaced.\n");

@@ -121,7 +121,7 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
 void HapticTask::noteLate(const Cycle& cycle) RELIEVO_RT {
   if (cycle.index > next_index_ && next_index_ > 0) {
     log_.push({.level = LogLevel::Debug,
-               .text = "ticks left out, then one woken late by so many us:",
+               .text = "missed ticks, and the us by which the next tick woke late:",
                .a = static_cast<double>(cycle.index - next_index_),
                .b = 1e6 * toSeconds(cycle.woken - cycle.scheduled)});
   }

@@ -188,7 +188,7 @@ ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
       "Bit rate: what the depth's coding costs, and what it does to the force",
       print("The author's default, H.264 of 8 bits at crf 8: off by %s (%.3f N; heights %.3f mm rms, %.2f at most). At "
             "the same crf, 10 bits: %s; HEVC of 10 bits: %s; 8 bits dithered: %s; 8 bits by disparity: %s. Lossless "
-            "16 bits (FFV1): %s: what is left then is the touching's own. The default felt by others: god-object %.2g "
+            "16 bits (FFV1): %s; that error is the method's own. The default with other methods: god-object %.2g "
             "%%, "
             "god-object-smoothed %.2g %%; lossless 16 bits %.2g and %.2g %%.",
             tell(own).c_str(), own.force.result().rms_n, own.heights.rms(), own.heights.largest(),

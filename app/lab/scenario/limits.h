@@ -17,7 +17,7 @@ inline constexpr Limit kDirectionMatches{
     10, "deg", "derived: a third of the 25 to 35 degrees that people notice (Barbagli et al. 2006)"};
 inline constexpr Limit kHalfIsFelt{
     50, "%",
-    "chosen: contact that came back has 96 % or more and contact that is gone has 0; any limit between tells them"};
+    "chosen: contact that came back has 96 % or more and contact that is gone has 0; any limit between separates them"};
 // The abstract of "Influence of different haptic environments on time delay discrimination".
 inline constexpr Limit kDelayUnnoticed{36, "ms", "cited: people notice the delay of a spring from 36 ms on"};
 

@@ -38,11 +38,10 @@ inline constexpr const char* kDevicesFooter =
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"
     "  counts_per_nm = 6000           its strength, as measured by `relievo devices calibrate`\n";
 inline constexpr const char* kCalibrateFooter =
-    "\nHook a spring scale to the Falcon's grip and pull it out to the middle of its way. The grip pushes toward you "
-    "with "
-    "2,\n3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the configuration, "
-    "where\n`relievo play` finds it. Until then the highest strength that users have reported is assumed, so that "
-    "the\nforce is never larger than requested.\n";
+    "\nHook a spring scale to the Falcon's grip and pull it out to the middle of its range. The grip pushes toward you "
+    "with\n2, 3 and 4 N in turn: type what the scale shows each time, in newtons. The result goes into the "
+    "configuration,\nwhere `relievo play` finds it. Until then the highest strength that users have reported is "
+    "assumed, so that the\nforce is never larger than requested.\n";
 inline constexpr const char* kSelfTestFooter =
     "\nIt looks for a font and the decoders, and plays a film of its own for three seconds off screen, touched by the\n"
     "simulated hand. Each line begins with `good`, `note` (works without it, but less well) or `bad`. Exit code: 0 "
@@ -58,7 +57,7 @@ inline constexpr const char* kPlayAbout =
     "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
     "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
     "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
-    "  relievo film.mkv --haptic falcon         felt with a force-feedback device; with a second --haptic, by two\n"
+    "  relievo film.mkv --haptic falcon         felt with a force-feedback device; a second --haptic adds a finger\n"
     "  relievo film.mkv --resume                from where it was left\n"
     "  relievo                                  a list of films to choose from; --films FOLDER: those of a folder\n"
     "  relievo https://example.org/film.m3u8    from the network\n"
