@@ -156,10 +156,10 @@ class Surroundings {
   int count_ = 0;
 };
 
-// Whether the 5 x 5 samples, row by row, lie on a plane: what the plane of least squares leaves is little beside their
-// reach. Of a step it leaves a quarter, of one over two samples a tenth.
+// Whether the 5 x 5 samples, row by row, lie on a plane: the residual of the plane of least squares is small compared
+// to their range. For a step, the residual is a quarter of the range; for a step over two samples, a tenth.
 bool isSlope(const std::array<float, 25>& samples, float reach) {
-  constexpr float kLeft = 0.06F, kSpread = 50;  // the sum of the squares of x over the window, from its middle
+  constexpr float kLeft = 0.06F, kSpread = 50;  // kSpread: sum of x^2 over the window, x from its middle
   float sum = 0, squares = 0, across = 0, down = 0;
   for (int i = 0; i < 25; ++i) {
     const float code = samples[static_cast<std::size_t>(i)] - samples[12];

@@ -12,11 +12,11 @@ namespace relievo {
 namespace {
 
 constexpr Duration kLookEvery = std::chrono::milliseconds(500);
-constexpr std::size_t kMostLooks = 24;  // kept of a shot; of a longer one every second is left out, and so on
+constexpr std::size_t kMostLooks = 24;  // kept of a shot; whenever there are more, every second one is dropped
 constexpr int kKeptCols = 640;          // of what is kept: in which the eyes are told apart
 constexpr int kReducedCols = 320;       // in which the range is measured
 constexpr std::size_t kMostAsked = 8;   // pictures of a shot that are examined for the eyes' order
-constexpr int kWidest = 6;              // a part of the width: the largest disparity
+constexpr int kWidest = 6;              // the largest disparity is the width divided by this
 constexpr double kBlackSpread = 3;      // levels
 constexpr double kSame = 0.75;          // levels between two views, on average
 constexpr double kLeastShift = 0.5;     // pixels that are worth correcting

@@ -256,7 +256,7 @@ class RosbagSource final : public MediaSource {
   BagFile bag_;
   std::vector<Topic> topics_;
   std::vector<std::uint32_t> chunks_;                // with pictures of the film, in the file's order
-  std::map<std::uint32_t, std::size_t> streams_of_;  // by connection: of the film's topics
+  std::map<std::uint32_t, std::size_t> streams_of_;  // the stream of each connection whose topic is in the film
   bool stamped_ = true;                              // times are the messages' stamps
   Duration start_{0};                                // of the film, on the recording's clock
   Place place_;                                      // `chunk` is an index in `chunks_`

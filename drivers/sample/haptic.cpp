@@ -8,7 +8,7 @@ namespace relievo {
 namespace {
 
 constexpr double kRateHz = 1000, kMostHz = 1000;  // its own best; the most that --rate can have
-constexpr double kStiffnessNPerMm = 1;            // that was stable at kRateHz
+constexpr double kStiffnessNPerMm = 1;            // the highest that was stable at kRateHz
 constexpr Duration kWatchdog = std::chrono::milliseconds(20);
 
 class SampleHaptic final : public HapticDevice {

@@ -241,7 +241,7 @@ Film timedFilm(const std::string& path) {
     const auto packet = static_cast<std::size_t>(shown.pts.time_since_epoch() / kPeriod);
     if (packet < times.size()) times[packet] = time(place++);
   }
-  for (std::size_t i = 0; i < times.size(); ++i) {  // one without a picture: the second field of one
+  for (std::size_t i = 0; i < times.size(); ++i) {  // a packet with a second field has no picture of its own
     film.packets[i].pts =
         times[i] ? *times[i] : MediaTime(i > 0 ? *film.packets[i - 1].pts + Duration(1) : MediaTime{});
   }

@@ -280,7 +280,7 @@ TEST_F(Gstreamer, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
       {"hangs", Fault::Hangs, 60, 1, 1, {other}, true},
       {"hangs at once", Fault::Hangs, 0, 1, 1, {other}, true},
       {"fails once", Fault::Fails, 60, 1, 2, {anew}, false},
-      {"fails twice", Fault::Fails, 30, 2, 2, {other}, true},  // the last is told
+      {"fails twice", Fault::Fails, 30, 2, 2, {other}, true},  // the last restart is reported
       {"is gone", Fault::IsGone, 60, 1, 1, {other}, true},
   };
   for (const Trouble& trouble : troubles) {

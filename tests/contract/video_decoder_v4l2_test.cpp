@@ -296,7 +296,7 @@ TEST_F(V4l2M2m, TheFilmGoesOnWhereItWasWithoutAPictureLostOrTwice) {
   const Trouble troubles[] = {
       {"hangs once", [](auto& codec) { codec.hangAfter(60, 1); }, 2, {anew}, false},
       {"hangs twice", [](auto& codec) { codec.hangAfter(30, 2); }, 2, {anew, other}, true},
-      {"hangs at once", [](auto& codec) { codec.hangAfter(0, 2); }, 2, {other}, true},  // the last is told
+      {"hangs at once", [](auto& codec) { codec.hangAfter(0, 2); }, 2, {other}, true},  // the last restart is reported
       {"is gone", [](auto& codec) { codec.unplugAfter(60); }, 1, {other}, true},
   };
   for (const Trouble& trouble : troubles) {

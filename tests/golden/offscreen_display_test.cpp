@@ -182,7 +182,7 @@ TEST(OffscreenDisplay, CaptureHoldsItsRateWhateverComesLateOrEarly) {
   };
   show(0, 1, 1);   // white at 0 ms
   show(58, 0, 0);  // black, 18 ms late: neither repeated nor dropped
-  show(24, 1, 1);  // white at 82 ms, about its time
+  show(24, 1, 1);  // white at 82 ms, 2 ms late
   show(78, 0, 1);  // blue at 160 ms: nothing came at 120 ms, so white is repeated
   show(1, 0, 0);   // black at 161 ms, 39 ms early
   show(1, 1, 1);   // white at 162 ms, two periods early: dropped

@@ -26,7 +26,7 @@ END_S = 120  # for an end of any kind, on a busy machine
 IN_NAMESPACE = "RELIEVO_STALLED_MOUNTS"
 H264 = ("-c:v", "libx264", "-threads", "1", "-pix_fmt", "yuv420p", "-g", "4")
 
-# What is asked, the operation and the file that stall, and what the line names; @ is the mount.
+# The command, the operation and the file that stall, and the thing that the error message must name; @ is the mount.
 GIVEN_UP = (
     ("relievo probe @/film.mkv", "lookup", "film.mkv", "@/film.mkv"),
     ("relievo probe @/film.mkv", "getattr", "film.mkv", "@/film.mkv"),

@@ -60,7 +60,8 @@ TEST_F(PlayerOnACamera, TheLivePictureIsTouchedAndItsLatencyIsTold) {
   EXPECT_GT(live["picture_latency_ms"]["p50"].get<double>(), 0);
   EXPECT_GE(live["touch_behind_picture_ms"]["p99"].get<double>(), 0);
   EXPECT_NE(r["haptic"]["plan"].get<std::string>().find("linear in time"), std::string::npos) << r["haptic"]["plan"];
-  // One that is lost behind the last that came is told by nothing; camera_v4l2_test counts them one by one.
+  // A picture that is lost after the last one that came cannot be noticed; camera_v4l2_test counts lost pictures one by
+  // one.
   EXPECT_LE(r["video"]["pictures_lost"].get<std::uint32_t>(), camera.starved());
   EXPECT_EQ(camera.unknownRequests(), 0);
 }

@@ -211,7 +211,7 @@ TEST_F(PlayerWindow, ItsCloseButtonEndsThePausedFilmWhateverTheRemoteIs) {
   EXPECT_TRUE(r["faults"].empty()) << r["faults"];
 }
 
-// A film that stands has no pictures of its own to fill a larger window with.
+// While a film is paused, no new picture comes: a larger window must be filled by drawing the present one again.
 TEST_F(PlayerWindow, ThePausedPictureFollowsTheWindow) {
   const auto player = play({"--haptic", "none"});
   EXPECT_TRUE(until([&] { return shows(); }));

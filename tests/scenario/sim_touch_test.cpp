@@ -38,7 +38,7 @@ Felt touchPlane(const DeviceProfile& profile, double stiffness, HandMotion motio
     frames.push_back(test::makeReliefFrame(80, 45, kVolume, mediaTime(t), [](double, double) { return kHeightMm; }));
   }
   task->windowToFill() = test::makeWindow(frames, kVolume);
-  task->windowToFill().clock = {.media = {}, .monotonic = clock.now(), .rate = 0};  // it stands
+  task->windowToFill().clock = {.media = {}, .monotonic = clock.now(), .rate = 0};  // paused
   task->publishWindow();
 
   Felt felt;

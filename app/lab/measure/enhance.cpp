@@ -56,7 +56,7 @@ struct EdgeRow {
   double mean_px = 0, most_px = 0, within_percent = 0;  // rows whose edge is within a sample
 };
 
-// The pictures behind an enhancement, of 16 bits; without one as they are.
+// The pictures after an enhancement, in 16 bits; without an enhancement, unchanged.
 Result<std::vector<Frame>> enhanced(std::span<const Frame> pictures, const std::optional<Enhancement>& kind) {
   if (!kind) return std::vector<Frame>(pictures.begin(), pictures.end());
   DepthEnhancer enhancer(*kind, kSensorCalibration);

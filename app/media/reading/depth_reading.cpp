@@ -49,7 +49,7 @@ std::string holesText(double share) {
   return share == 0 ? "" : print(" with %.1f %% holes", 100 * share);
 }
 
-// Codes that are distances: near and far from those in use.
+// Codes that are distances: near and far follow from the lowest and the highest code in use.
 DepthReading readDistances(const CodeCount& count, double unit_mm, const CodeSet& invalid, const char* what) {
   const CodeCount valid = count.without(invalid);
   if (valid.samples() == 0) return {};

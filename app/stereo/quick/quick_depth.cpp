@@ -13,7 +13,7 @@ namespace relievo {
 namespace {
 
 constexpr int kSurveyCols = 160;     // in which the range is measured
-constexpr int kWidest = 6;           // a part of the width: the largest disparity
+constexpr int kWidest = 6;           // the largest disparity is the width divided by this
 constexpr double kLeastFound = 0.4;  // share of the pixels that both views show; of two other pictures a tenth
 constexpr double kOutliers = 0.005;
 constexpr double kMoved = 0.05;      // share of the pixels, at each end, that may lie elsewhere in one picture twice

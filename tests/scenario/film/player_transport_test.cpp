@@ -239,7 +239,7 @@ TEST_F(PlayerResume, AFilmThatHasEndedBeginsAtItsBeginning) {
   EXPECT_NEAR(bench_.report.media_s, 4.0, 0.1);
 }
 
-// Its place is the picture's, however long that has stood.
+// The film's position is that of the picture, no matter how long the picture has stood still.
 TEST_F(PlayerResume, AFilmThatStandsIsKeptWhereItStands) {
   bench_.sources["film"] = PlayerBench::film(1000);
   bench_.sources["film"].remote = true;

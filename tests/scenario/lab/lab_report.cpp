@@ -17,7 +17,7 @@ namespace relievo::test {
 namespace {
 
 TEST_F(LabCharts, SaysHowFarItIsAndWhereThePageLies) {
-  std::istringstream lines(result_.err);  // of a machine so slow that there are any
+  std::istringstream lines(result_.err);  // empty, except on a slow machine
   for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.starts_with("relievo-lab: progress: ")) << line;
   EXPECT_EQ(result_.out.substr(0, result_.out.find(' ')), out("index.html"));
 }

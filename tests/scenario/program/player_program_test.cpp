@@ -163,7 +163,7 @@ TEST_F(PlayerProgram, ADeviceThatCannotTickAsOftenIsToldOfInOneLineAndPlays) {
   EXPECT_EQ(reportOf("r.json")["haptic"]["rate_hz"], 1000);
 }
 
-// The simulated hand has no eyes: it is told where there is something.
+// The simulated hand has no eyes: the player tells it where there is something to touch.
 TEST_F(PlayerProgram, TheSimulatedHandFindsWhatThereIsBesideAHole) {
   ClipTrack ring = depth(75);
   ring.pix_fmt = "gray";

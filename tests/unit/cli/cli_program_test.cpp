@@ -30,7 +30,7 @@ TEST(ProgramDeathTest, NeitherDoesASecondSignal) {
               "^quiet$");
 }
 
-// Else a film would be written to by whoever prints a line.
+// Otherwise a film that is opened later would get the number of standard output, and printed lines would go into it.
 TEST(ProgramDeathTest, AFileIsNoStreamThatWasClosed) {
   const auto opened = [] { return ::open("/dev/null", O_WRONLY | O_CLOEXEC) > STDERR_FILENO ? 5 : 6; };
   EXPECT_EXIT((::close(STDIN_FILENO), ::close(STDOUT_FILENO), ::close(STDERR_FILENO),

@@ -94,7 +94,8 @@ TEST_F(SurfaceFeederTest, HoldsTwoFramesBeforeThePresentAndFourAfterIt) {
   EXPECT_THAT(times(), ElementsAre(1, 2, 3, 4, 5, 6, 7));
 }
 
-// Of a live film the newest picture is on the screen, and an earlier moment is felt; depth goes in before its picture.
+// In a live film the screen shows the newest picture while an earlier moment is felt. A depth frame enters the window
+// before its picture is shown.
 TEST_F(SurfaceFeederTest, OfALiveFilmDepthIsHeardOfBeforeItsPicture) {
   EXPECT_FALSE(feeder_.hear(depthFrame(0))) << "nothing is shown yet";
   const auto show = [&](double picture, double felt) {

@@ -89,7 +89,7 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
     }
     const TouchPlan plan = planTouch(measureClip(window.frames));
     FeltScale scale = plan.scale;
-    scale.broad_mm = 0;  // the error told is that of a place with curves
+    scale.broad_mm = 0;  // the plan's error is that of a curved place
     FeltSurface felt(scale);
     double sum = 0;
     int places = 0;

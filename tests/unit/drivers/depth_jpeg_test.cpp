@@ -196,7 +196,7 @@ TEST(DepthJpeg, OtherPhotosAreColourAlone) {
   }
 }
 
-// Nothing of which takes room on the disk.
+// The file is sparse: it takes no space on the disk.
 TEST(DepthJpeg, AFileThatIsTooLargeIsNotRead) {
   const test::TemporaryFolder folder;
   write(folder / "a.jpg", standardXmp("<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m") +

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kCols = 40, kRows = 30;
 
-// Metres; 0 stands for nothing there.
+// Metres; 0 means that there is nothing.
 double metresAt(int c, int r) {
   return c < 6 && r < 5 ? 0 : 8.0 - 0.2 * r + 0.01 * c;
 }

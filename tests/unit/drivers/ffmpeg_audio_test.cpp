@@ -134,7 +134,7 @@ TEST_P(FfmpegAudio, TheSineComesOutAtItsPitchItsStrengthAndItsTime) {
     // One channel goes to both sides with half of its power each.
     EXPECT_NEAR(tone.amplitude, GetParam().sound.channels == 1 ? 0.5 * std::sqrt(0.5) : 0.5, 0.02);
     EXPECT_LT(toneOf(*side, decoded.begin, 660, 0.5, 2.5).amplitude, 0.01);
-    // Both tones and the pictures begin together, whatever a codec has put in front. A period of 20 Hz is 50 ms.
+    // Both tones begin with the pictures, even if the codec has put padding before them. A period of 20 Hz is 50 ms.
     const double off_s = toneOf(*side, decoded.begin, 20, 0.5, 2.5).late_s - toSeconds(decoded.first_picture);
     EXPECT_NEAR(std::remainder(off_s, 0.05), 0, GetParam().off_s);
   }

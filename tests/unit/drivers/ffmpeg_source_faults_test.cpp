@@ -89,7 +89,7 @@ TEST(FfmpegSource, AY4mHeaderOfTooLargePicturesNamesTheLargest) {
   EXPECT_THAT(openErrorOf(folder / "b.y4m").message, testing::Not(HasSubstr("4096 x 4096")));
 }
 
-// Told by their first bytes, even where FFmpeg would find something like sound in what follows.
+// They are recognised by their first bytes, even where FFmpeg would find something like sound in what follows.
 TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsThem) {
   const TemporaryFolder folder;
   using namespace std::string_view_literals;

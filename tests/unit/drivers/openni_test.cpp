@@ -204,7 +204,7 @@ TEST_P(OpenniVariants, SeeksToThePictureAtOrBeforeTheTarget) {
   expectDepth(framesOf(*source, depth));
 }
 
-// Cut at every 499th byte: what is whole before the cut is played, and the end is an end.
+// Cut at every 499th byte: the whole pictures before the cut are played, and then the film ends without an error.
 TEST_P(OpenniVariants, CutOffAnywhereItPlaysWhatIsWhole) {
   const std::string bytes = recording(GetParam());
   std::size_t before = 0;

@@ -297,7 +297,7 @@ TEST_F(Pictures, OneThatHasGoneIsPassedOverNamedAndCounted) {
   EXPECT_FALSE(*source->read());
 }
 
-// Nothing of which takes room on the disk.
+// The file is sparse: it takes no space on the disk.
 TEST_F(Pictures, AFileThatIsTooLargeIsNotLookedInto) {
   for (const auto& [name, most] : {std::pair("1.png", 140'000'000), std::pair("1.pfm", 300'000'000)}) {
     const std::string path = file(name);

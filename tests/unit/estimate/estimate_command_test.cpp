@@ -124,7 +124,7 @@ TEST(DepthCommand, IsGivenUpIfItStallsOrIsTooLate) {
               HasSubstr("has read 64 pictures more than it has answered"));
 }
 
-// A process that is gone, or ended and not yet collected by whoever inherited it.
+// True if the process is gone, or has ended and waits for its new parent to collect it.
 bool isGone(pid_t pid) {
   if (::kill(pid, 0) != 0) return true;
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");

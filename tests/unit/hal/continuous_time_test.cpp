@@ -82,7 +82,7 @@ TEST_F(ContinuousTimeTest, OneStreamThatIsMissedForLongIsNoJump) {
   EXPECT_EQ(time_.jumps(), 0u);
 }
 
-// Decoding times may fall a little where they are rounded: the next step is not that one.
+// Rounded decoding times may go back a little. A jump is not continued by that negative step, but by the one before it.
 TEST_F(ContinuousTimeTest, AfterALittleDisorderAJumpContinuesByTheStepBeforeIt) {
   place(0, 0);
   EXPECT_EQ(place(0, 40), 40);

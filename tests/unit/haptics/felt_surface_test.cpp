@@ -198,7 +198,7 @@ TEST(FeltSurface, WhatIsLeftOfATickDoesNotShowWhereAnEdgeMoves) {
   }
 }
 
-// The frame has the time of one whose edge moved; this one's stands.
+// The frame has the time of an earlier one whose edge moved; the edge of this frame does not move.
 TEST(FeltSurface, TheMotionOfAnEdgeEndsWithItsEpoch) {
   const auto moving = film(5, [](double x, double, double t) { return edgeAt(-6 + 3 * t / kPeriod, x); });
   const auto standing = film(5, [](double x, double, double) { return edgeAt(0, x); });

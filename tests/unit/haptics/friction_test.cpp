@@ -205,7 +205,8 @@ TEST(StickPoint, AStrokeIsGivenNoEnergy) {
   }
 }
 
-// The surface at the point is read after the force, for the next tick: as if the tick itself had read it.
+// After the force is sent, the surface at the stick point is read for the next tick. The result must be that of reading
+// it in the next tick itself.
 TEST(StickPoint, WhatIsReadAheadIsTheSurfaceOfTheNextTick) {
   constexpr DisplayVolume kVolume{160, 108, 40};
   constexpr double kRise = 60;  // mm/s

@@ -132,7 +132,7 @@ TEST_F(HapticTaskTest, AFeedIsLateWhenAFrameAndAHalfAreMissingAndNotSoonerThanIn
   EXPECT_EQ(ticksUntilLate({0, 0.2}), 200 + 301);
 }
 
-// The film has run beyond its newest frame, and then stands: the surface is that of the newest frame.
+// The film's clock has run past the newest frame and then stops: the surface is that of the newest frame.
 TEST_F(HapticTaskTest, AFilmThatIsPausedWhileItsDepthIsLateIsTouchableAgain) {
   publishPlane(20);
   press(1);

@@ -200,7 +200,9 @@ TEST(SafetyFilter, AFingerThatStopsIsLeantAgainstNoLonger) {
 }
 
 TEST(SafetyFilter, LeansAgainstTheMotionByNoMoreThanTheSpringOfTwoTicks) {
-  SafetyFilter filter({.tank_mj = 1e9}, 0.5);  // never empty: so wild a walk costs more than leaning recovers
+  SafetyFilter filter(
+      {.tank_mj = 1e9},
+      0.5);  // the tank never empties: this walk is so wild that tilting the force cannot recover the energy
   SafetyFilter plain({.limit_energy = false}, 0.5);
   std::mt19937 random(3);
   std::normal_distribution<double> step(0, 0.3);

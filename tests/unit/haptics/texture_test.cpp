@@ -123,7 +123,8 @@ double givenBy(RelievoMethod& method, const SurfaceWindow& w, const std::vector<
   return given;
 }
 
-// In at a valley, out at a crest: without an account, .5 N/mm x 3 mm x .2 mm = .3 mJ a time.
+// A finger that enters at a valley and leaves at a crest would gain .5 N/mm x 3 mm x .2 mm = .3 mJ each time if the
+// ripple kept no account of its energy.
 TEST(Ripple, GivesNothingToAFingerThatGoesInAtAValleyAndOutAtACrest) {
   const SurfaceWindow w = plane();
   for (const int ticks : {20, 100, 400}) {  // up to 0.3 m/s

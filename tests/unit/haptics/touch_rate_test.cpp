@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits, fades, books and methods at every rate of the task: they take as many seconds, whatever the ticks.
+// Limits, fades, energy accounts and methods at every rate of the task: each takes the same time at every rate.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -66,7 +66,7 @@ TEST(DrawnDepth, AGridGoesStraightBetweenItsSamples) {
   EXPECT_NEAR(field.heightMm(14, 14), 4, 0.001);
   EXPECT_NEAR(field.heightMm(14, 13), 4, 0.001);
   EXPECT_NEAR(field.heightMm(13, 15), 2, 0.001);  // in (12, 12), (12, 16), (16, 16): 8 (1 - 3/4)
-  EXPECT_NEAR(field.heightMm(14, 11), 2, 0.001);  // above it the diagonal goes past: 8 (1 - 2/4 - 1/4)
+  EXPECT_NEAR(field.heightMm(14, 11), 2, 0.001);  // in the cell above no diagonal meets the sample: 8 (1 - 2/4 - 1/4)
   EXPECT_EQ(field.heightMm(16, 12), 0);
   EXPECT_EQ(greatestDifference(drawn(spike, {.grid_step = 5}).frame, relief([](double, double) { return 0.0; })), 0);
 }

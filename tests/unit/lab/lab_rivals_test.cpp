@@ -115,7 +115,8 @@ TEST(DepthSmoother, OfAFinePictureIsAsWideOnFewerSamples) {
   }
 }
 
-// White noise s of samples p apart is s p/(sqrt(4 pi) w) behind a Gaussian of width w; the mean stays.
+// White noise of deviation s on samples p apart has the deviation s p/(sqrt(4 pi) w) after a Gaussian of width w; the
+// mean stays.
 TEST(DepthSmoother, LeavesOfNoiseWhatTheoryDoes) {
   std::uint32_t state = 1;
   const auto uniform = [&] {

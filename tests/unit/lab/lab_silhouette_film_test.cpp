@@ -20,7 +20,7 @@ int channel(const DrawnPicture& picture, int x, int y, int c) {
   return picture.rgba[(static_cast<std::size_t>(y) * picture.width + x) * 4 + c];
 }
 
-// Red as nothing but the ball is.
+// Only the ball is this red.
 bool isBall(const DrawnPicture& picture, int x, int y) {
   return channel(picture, x, y, 0) > 2 * channel(picture, x, y, 2);
 }

@@ -16,7 +16,8 @@ int lumaAt(const Frame& frame, int c, int r) {
   return frame.planes[0].data[r * frame.planes[0].stride_bytes + c];
 }
 
-// By how many pixels to the left the right view has the 25 x 9 pixels around a place, by the least sum of squares.
+// The disparity around a place: by how many pixels its 25 x 9 neighbours lie further left in the right view, by least
+// squares.
 double foundAt(const ViewFilm& film, int c, int r) {
   double least = std::numeric_limits<double>::max();
   int found = 0;

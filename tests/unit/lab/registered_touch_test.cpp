@@ -78,8 +78,9 @@ Point inColor(const Registration& r, const Point& p) {
           m[6] * p.x + m[7] * p.y + m[8] * p.z + t[2]};
 }
 
-// A scene is told by how far behind its surface a point of the colour camera's frame is, in mm along the axis, given
-// the point and the pixel where it is seen. The first change of sign along a ray is what the depth camera measures.
+// A scene is described by how far behind its surface a point of the colour camera's frame is, in mm along the axis,
+// given the point and the pixel where it is seen. The first change of sign along a ray is what the depth camera
+// measures.
 using Behind = std::function<double(const Point&, glm::dvec2)>;
 double measured(const Registration& r, glm::dvec2 ray, const Behind& behind) {
   const auto at = [&](double z) {

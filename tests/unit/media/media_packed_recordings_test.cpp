@@ -89,7 +89,8 @@ TEST(Recordings, BrightnessBesideThePhotoIsFoundInGrayAndInRed) {
   }
 }
 
-// A white room with one blue thing is nearly as gray as its depth; where the halves meet, the picture breaks.
+// The picture of a white room with one blue object is nearly as gray as its depth. The halves are found by the break in
+// the picture where they meet.
 TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   const auto cup = [](int c, int r) { return c >= 60 && c < 100 && r >= 30 && r < 60; };
   const Half pale{[=](int c, int r) {

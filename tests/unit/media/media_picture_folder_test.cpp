@@ -209,7 +209,7 @@ TEST_F(PictureFolder, TheUnitIsToldFromTheWholeRecording) {
 TEST_F(PictureFolder, APictureBeyondThoseLookedAtIsToldOnce) {
   for (int k = 0; k < 64; ++k) {
     picture("o/rgb/" + std::to_string(100 + k) + ".ppm", k);
-    const bool strange = k == 4 || k == 5;  // none of those that are spread over the recording
+    const bool strange = k == 4 || k == 5;  // not among the pictures that are looked at when the folder is opened
     slope(folder_ / ("o/depth/" + std::to_string(100 + k) + ".pgm"), 570, strange ? 4000 : 2130);
   }
   PairReader reader(kReal);

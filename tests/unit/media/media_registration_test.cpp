@@ -96,7 +96,7 @@ TEST(Registration, FromNearerThePictureGrowsWithoutGaps) {
   for (int r = 0; r < 8; ++r) EXPECT_EQ(rowOf(there, r), Row(16, 500)) << r;
 }
 
-// In units of 0.25 mm: the distance from the other camera is told in the same unit.
+// In units of 0.25 mm: the registered depth, seen from the other camera, has the same unit.
 TEST(Registration, DistancesKeepTheirUnitAndThePictureItsTime) {
   Frame depth = depthOf(16, 8, [](int, int) { return 4000; });
   depth.pts = mediaTime(1.5);

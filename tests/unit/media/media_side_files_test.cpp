@@ -123,7 +123,7 @@ TEST_F(CalibTxt, IsForDisparitiesAlone) {
   const test::OpenedFilm named = open("depth0.pfm");
   EXPECT_THAT(named.info.reading.why, Contains(HasSubstr("distances")));
   expectDistances(open("depth0.pfm", {.as = findKind("middlebury")}));
-  // What the user says counts; and another program's file of that name tells nothing.
+  // The user's value wins over the side file; a file of that name from another program is ignored.
   writePfm(folder_ / "disp0.pfm", 1);
   EXPECT_NEAR(open("disp0.pfm", {.command_line = {{"unit", "1000"}}}).distanceAt(80, 54), 1000 * disparityAt(80, 54),
               100);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Films of two views are told from those of one view and from depth, and each eye is shown its own.
+// Films of two views are distinguished from those of one view and from depth, and each eye is shown its own view.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// Spots of 2 pixels, as bright as a number without order says (Knuth's multiplicative hash): no half looks like the
-// other, while the rows of `photo` come again.
+// Spots of 2 pixels with pseudo-random brightness (Knuth's multiplicative hash). Neither half looks like the other,
+// whereas the rows of `photo` repeat.
 ClipTrack spots() {
   ClipTrack track{.pix_fmt = "yuv444p", .width = kSceneCols, .height = kSceneRows, .frames = 2};
   track.sample = [](int k, int c, int r, int) {
@@ -57,7 +57,7 @@ TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
               Contains(HasSubstr("the same picture")));
 }
 
-// --depth-from stereo: the pairs keep both views, and whoever plays them makes the depth.
+// --depth-from stereo: the reader keeps both views in each pair; the player makes the depth.
 TEST(Recordings, DepthIsMadeOfTwoViewsOnlyWhereThereAreTwo) {
   const Half left{photoOf};
   const Half right{[](int c, int r) { return photoOf(c + 4 + (r > 50 ? 3 : 0), r); }};
@@ -85,7 +85,7 @@ TEST(Recordings, DepthIsMadeOfTwoViewsOnlyWhereThereAreTwo) {
   EXPECT_THAT(both.info.reading.doubts, Contains(HasSubstr("the film has depth of its own")));
 }
 
-// What the user says of a film of one view cannot be: told in one line, and no depth is made of it.
+// The user takes a film of one view for two views: one line says that it has only one, and no depth is made of it.
 TEST(Recordings, AFilmOfOneViewIsNotTakenForTwo) {
   TemporaryFolder folder;
   makeClip(folder / "one.mkv", {spots()});

@@ -220,7 +220,7 @@ TEST(Views, AJpsHoldsThemInOnePicture) {
   EXPECT_NEAR(test::sampleAt(bare.pair.color, 0, 20, 20), kBright, 4);
 }
 
-// Interleaved rows and anaglyphs are told, not shown.
+// Interleaved rows and anaglyphs are recognised and reported; relievo cannot show them.
 TEST(Views, AJpsOfAnotherLayoutIsTold) {
   const test::TemporaryFolder folder;
   ClipTrack beside = halves(true, "mjpeg");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A question that is never answered costs its thread, and whoever asked goes on.
+// A call that the file system never answers blocks a thread of its own; its caller goes on.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

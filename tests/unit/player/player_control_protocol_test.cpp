@@ -68,7 +68,8 @@ TEST(ControlProtocol, WhatIsNoRequestSaysWhyAndWhatOneIs) {
     EXPECT_FALSE(answer["error"].get<std::string>().empty());
   }
   EXPECT_THAT(parseControlLine(R"({"do":"dance"})").asked.error(), HasSubstr("seek +S|-S|S|P%"));
-  const ControlLine cut = parseControlLine(R"({"do":"open a.mkv\u0000b"})");  // names would end there
+  const ControlLine cut =
+      parseControlLine(R"({"do":"open a.mkv\u0000b"})");  // a file's name would end at the zero byte
   ASSERT_FALSE(cut.asked);
   EXPECT_THAT(cut.asked.error(), HasSubstr("zero byte"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control socket's manners: whom it lets in, how much it holds for anyone, and that it waits for none.
+// The control socket: whom it lets in, how much it buffers for each program, and that it waits for none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

@@ -25,7 +25,7 @@ TEST(Journal, TellsEachFaultAndWhichAreNew) {
   clock.sleepUntil(clock.now() + std::chrono::seconds(2));
   journal.note("display lost", "it is tried again");
   journal.note("display lost", "it is tried again");
-  journal.noteQuietly("haptic: memory not locked", "ticks may come late");  // someone else has told it
+  journal.noteQuietly("haptic: memory not locked", "ticks may come late");  // another part has logged it
   journal.noteStop("film: no such file");
   EXPECT_EQ(fresh, (std::vector<bool>{true, false, false}));
   ASSERT_EQ(heard.size(), 3U);

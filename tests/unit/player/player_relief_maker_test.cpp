@@ -14,7 +14,7 @@ namespace {
 constexpr Duration kPeriod = std::chrono::milliseconds(40);
 using Ms = std::chrono::milliseconds;
 
-// Takes as much time as it is told; its depth is its picture's time alone.
+// Takes as much time as the test says; the depth that it makes holds nothing but its picture's time.
 class SlowMatcher final : public StereoMatcher {
  public:
   SlowMatcher(ManualClock& clock, std::array<Duration, 3> taken) : costs(taken), clock_(clock) {}

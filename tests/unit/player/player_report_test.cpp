@@ -94,7 +94,7 @@ TEST(Report, CountsAFaultThatComesAgainAndAgainInOneEntry) {
   EXPECT_TRUE(r.addFault(1.0, "a", "x"));
   EXPECT_FALSE(r.addFault(2.0, "a", "x"));
   EXPECT_TRUE(r.addFault(3.0, "b", "x"));
-  EXPECT_FALSE(r.addFault(4.0, "a", "x"));  // not the last one, but told before
+  EXPECT_FALSE(r.addFault(4.0, "a", "x"));  // not the last one, but reported before
   const json faults = json::parse(toJson(r))["faults"];
   ASSERT_EQ(faults.size(), 3u);
   EXPECT_EQ(faults[0], (json{{"time_s", 1.0}, {"what", "a"}, {"done", "x"}, {"count", 2}}));

@@ -18,7 +18,8 @@ using Verdict = SelfTestLine::Verdict;
 
 class SelfTest : public testing::Test {
  protected:
-  // What it says of everything but the font and the right to be in time, which are this machine's.
+  // Runs the self-test and returns its lines, without those on fonts and real-time scheduling, which depend on the
+  // machine.
   std::map<std::string, SelfTestLine> run() {
     auto display = makeMockDisplay(display_, clock_);
     auto setup = parseSim("");

@@ -95,7 +95,8 @@ TEST(DetailLevel, TriesAgainMoreAndMoreSeldom) {
     detail.drew(detail.level() >= 2 ? milliseconds(5) : milliseconds(30));
     levels.push_back(detail.level());
   }
-  // Without patience there would be an attempt every 30 + 9 frames: over 500. With it after 30, 60, .. 3840, 3840, ..
+  // If it always waited 30 frames, there would be an attempt every 30 + 9 frames: over 500 attempts. It waits longer
+  // after each failure: 30, 60, .. 3840, 3840, .. frames.
   EXPECT_LT(changes(levels), 40);
   EXPECT_GT(changes(levels), 10);
 }

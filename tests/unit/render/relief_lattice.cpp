@@ -30,7 +30,8 @@ TEST(HeightLattice, AHoleTakesTheHeightOfItsFartherSideWhicheverThatIs) {
   }
 }
 
-// Four times the pitch of the samples, along the side that has more than one; and never below a millimetre.
+// A jump between two samples is at least four times their pitch high, and never lower than a millimetre. A picture of
+// one row or column has the pitch of its other side.
 TEST(HeightLattice, AJumpIsFourTimesAsSteepAsWideAndAMillimetreAtLeast) {
   const auto flat = [](int, int) { return 5.0; };
   EXPECT_NEAR(latticeOf(flat, 41, 1).jumpMm(), 4 * 160.0 / 41, 1e-3);

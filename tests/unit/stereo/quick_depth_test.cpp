@@ -146,7 +146,8 @@ TEST(QuickDepth, FindsTheBoardsAtEverySize) {
   }
 }
 
-// What came first is the right eye's view, and the depth is that of it: the board of 12.5 pixels is near, where it is.
+// The first view is the right eye's. The depth is that of the first view all the same: the board with a disparity of
+// 12.5 pixels is near, at its place in that view.
 TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
   const TwoViews scene = boards(kCols, kRows);
   QuickDepth quick;

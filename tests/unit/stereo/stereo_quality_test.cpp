@@ -36,7 +36,8 @@ struct Quality {
   double lost_edges = 0;  // share of the steps of over 4 pixels that the map does not have within 3 pixels
 };
 
-// Whether a row passes the middle of the step behind column `c`, the same way, within 3 pixels.
+// Whether the row of the map crosses the middle of the true step between columns `c` and `c` + 1 in the same direction,
+// at most 3 pixels away.
 bool hasEdge(const Truth& truth, const DisparityMap& map, int c, int r) {
   const float before = truth.pixels[map.at(c, r)], after = truth.pixels[map.at(c + 1, r)];
   const float middle = 0.5F * (before + after);

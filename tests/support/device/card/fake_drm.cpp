@@ -164,7 +164,7 @@ drmModePlanePtr drmModeGetPlane(int /*card*/, std::uint32_t id) {
 }
 void drmModeFreePlane(drmModePlanePtr /*one*/) {}
 
-// A property's number is its object's times 100, and its place in the object's list.
+// A property's number is 100 times its object's number plus the property's place in the object's list.
 drmModeObjectPropertiesPtr drmModeObjectGetProperties(int /*card*/, std::uint32_t object, std::uint32_t /*type*/) {
   const auto count = static_cast<std::uint32_t>(propertiesOf(object).size());
   auto* const all = keep<drmModeObjectProperties>();

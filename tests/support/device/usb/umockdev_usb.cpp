@@ -123,7 +123,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
   if (requests_left_ > 0 && --requests_left_ == 0) plugged_ = false;
   const bool reaps = request == USBDEVFS_REAPURB || request == USBDEVFS_REAPURBNDELAY;
   if (!plugged_) {
-    // URBs that the kernel had come back once; after that there is nothing to reap.
+    // Each URB that the kernel still has is returned once; after that there is nothing to reap.
     for (std::deque<Urb>* queue : {&waiting_, &untaken_}) {
       for (const Urb& urb : *queue) finish(urb, -ESHUTDOWN, 0);
       queue->clear();

@@ -49,7 +49,8 @@ TEST_P(Inverse3Device, AnUnpluggedDeviceIsLostAndSaidSo) {
   EXPECT_TRUE(bench.bringUp());
 }
 
-// It answers nothing more, but the connection stands: zero is sent after 20 ms, and after 100 ms it is lost.
+// The service stops answering, but keeps the connection: the driver sends zero force after 20 ms, and after 100 ms the
+// device counts as lost.
 TEST_P(Inverse3Device, ASilentServiceGetsNoForceAndIsLost) {
   ASSERT_TRUE(bench.bringUp());
   bench.push({0, 0, 3});

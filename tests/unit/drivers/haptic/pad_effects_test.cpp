@@ -33,7 +33,7 @@ glm::dvec2 pushOf(const PadLevels& levels, glm::dvec2 stick) {
   return push;
 }
 
-// After the contact has been told.
+// After the contact has been reported.
 PadLevels held(PadEffects& effects, const glm::dvec3& force_n, const glm::dvec2& stick = {}) {
   PadLevels levels;
   for (int i = 0; i < 1000; ++i) levels = effects.follow(force_n, stick, kTick);

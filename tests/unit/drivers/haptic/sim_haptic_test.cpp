@@ -295,7 +295,8 @@ TEST(SimHaptic, RefusesAProfileThatCannotMove) {
 }
 
 // One newton on 0.075 kg: 0.5 x 13.333 mm/s x t/ms, that is 66.7 mm after 0.1 s, at every rate. Where the mass's own
-// friction is 0.002 N s/mm and a force one tick late, a wall swings from 2 b/(3 T) on; 0.8 of that is told.
+// friction is b = 0.002 N s/mm and a force comes one tick late, a wall swings from a stiffness of 2 b/(3 T) on. The
+// device reports 0.8 of that as its highest stiffness.
 TEST(SimHaptic, AnotherRateIsTheSameMotionAndAnotherStiffness) {
   for (const double hz : {500.0, 1000.0, 2000.0, 8000.0}) {
     ManualClock clock;

@@ -142,7 +142,7 @@ TEST(SimStability, JitterLowersTheOnsetAndTheBoundMore) {
   }
 }
 
-// With every hand, at the stiffness that the device states: in motion it behaves as without delay and encoder, and a
+// With every hand, at the highest stiffness that the device states: delay and encoder do not change how it moves, and a
 // hand at rest stays at rest.
 TEST(SimStability, WhatADevicePromisesItHoldsInEveryHand) {
   for (const SimDeviceName& device : simDevices()) {

@@ -108,7 +108,7 @@ TEST(PairReader, LostDepthEndsTheDepthAndNotTheFilm) {
     EXPECT_TRUE(pair->matched);
     if (!pair->depth.empty()) ++with_depth;
   }
-  ASSERT_TRUE(film.reader.seek(MediaTime{}).has_value());  // finds no depth again
+  ASSERT_TRUE(film.reader.seek(MediaTime{}).has_value());  // does not bring the depth back
   EXPECT_TRUE(film.reader.next().value()->depth.empty());
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_EQ(pairs, 30);

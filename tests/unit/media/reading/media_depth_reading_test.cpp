@@ -151,7 +151,7 @@ TEST(DepthReading, HighCodesMayBeDisparities) {
   EXPECT_THAT(offer(1), Not(HasSubstr("disparit")));
 }
 
-// Which distances the ends of the hues stand for no picture says, nor whether hues are even in 1/distance.
+// No picture says which distances the first and the last hue mean, nor whether the hues are even in 1/distance.
 TEST(DepthReading, HuesOfUnknownMeaningSayTheWords) {
   TemporaryFolder folder;
   ClipTrack hues{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1};
@@ -239,7 +239,8 @@ TEST(DepthReading, DoubtsWhatCannotBeRight) {
   EXPECT_THAT(doubts(clipped, {}), Contains(HasSubstr("50 % of the depth lies at the near end")));
 }
 
-// A renderer's depth ends where its thing does, in the colour as well; that is no second view.
+// In a rendered film the empty background around a thing has the same outline in depth and colour. The depth must not
+// be taken for a second view because of that.
 TEST(DepthReading, HolesAroundAThingAreNoSecondView) {
   const auto isThing = [](int c, int r) { return (c * c / 90 + r * r / 60) % 5 < 3; };
   const Frame color = makeGrayFrame(168, 96, 8, {}, [&](int c, int r) { return isThing(c, r) ? 200 : 20; });

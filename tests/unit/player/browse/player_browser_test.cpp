@@ -43,7 +43,7 @@ class PlayerWithAList : public testing::Test {
     ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
   }
 
-  // What a program is told that says this in the list.
+  // The answers that a program on the control socket gets to these lines while the list of films is shown.
   std::vector<json> answersTo(std::initializer_list<const char*> sayings) {
     std::vector<json> answers;
     auto socket = ControlSocket::listen(folder_ / "control");

@@ -174,7 +174,7 @@ TEST_F(FilmPlaybackTest, WhatRushesByIsNotFelt) {
   EXPECT_FALSE(film_.depth().expected);
 }
 
-// The reader does nothing for a while: the picture stands, and so does the place that the viewer is told.
+// The reader does nothing for a while: the picture freezes, and so does the position that the viewer sees.
 TEST_F(FilmPlaybackTest, AFilmThatComesTooSlowlyStandsAtItsPicture) {
   open("film");
   start();

@@ -177,7 +177,7 @@ TEST(Options, EachThatNeedsAValueSaysSoInTheProjectsWords) {
     std::istringstream words(line);
     const bool is_option = line.starts_with("  --") && words >> dash >> type;
     const std::size_t begin = is_option ? line.find(type) : 0;
-    if (!is_option || begin != 2 + dash.size() + 1) continue;  // a flag: its meaning stands in a column of its own
+    if (!is_option || begin != 2 + dash.size() + 1) continue;  // a flag: its meaning is in a column of its own
     ++options;
     const std::string said = dash + ": its value is missing; write " + dash + " ";
     expectRefused({"play", "film.mkv", dash.c_str()}, said.c_str());
