@@ -69,7 +69,7 @@ glm::dvec3 figure(std::size_t i) {
   return {20 * std::sin(phase), 20 * std::sin(0.8 * phase), 20 * std::cos(0.6 * phase)};
 }
 
-// The emulator's; from `moving` on it repeats one answer, once for each message.
+// The emulator's wire. From the call of `moving` on it repeats one answer, once for each message.
 class NullWire final : public inverse3::Wire {
  public:
   NullWire(test::Inverse3Service& service, Clock& clock) : wire_(service, clock) {}

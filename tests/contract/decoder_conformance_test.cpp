@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams of every kind through each decoder that decodes in software, against what FFmpeg's program makes of them, and
-// JVT's conformance streams against their MD5 sums where a person has them: RELIEVO_CONFORMANCE names their folder.
-// Such streams may not be passed on, so none is here.
+// Streams of every kind through each software decoder, compared with the pictures of FFmpeg's program; and JVT's
+// conformance streams, compared with their MD5 sums, where RELIEVO_CONFORMANCE names a folder that holds them. Their
+// licence does not allow copies here.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,8 +82,8 @@ struct Kind {
   const char* filter = "null";  // for the program, before it compares
 };
 
-// HEVC of several slices a picture is not among them: FFmpeg 5.1 decodes it wrongly now and then with two threads or
-// more that take a picture each, its program too.
+// HEVC with several slices a picture is left out: with two threads or more that decode a picture each, FFmpeg 5.1
+// sometimes decodes it wrongly, and so does its program.
 constexpr const char* kMoving = "testsrc2=s=128x96:r=25:d=2";
 const Kind kKinds[] = {
     {"pyramid.mkv", kMoving, "-c:v libx264 -bf 7 -x264-params b-pyramid=normal:b-adapt=0:ref=6:keyint=25", 50},
@@ -197,7 +197,7 @@ TEST(DecoderConformance, ErrorsEndWithTheirGroupOfPictures) {
 
 // ---- streams of a folder
 
-// The sums that are known of a stream's pictures: of files beside it, or of the pictures themselves there.
+// The MD5 sums of a stream's pictures, from the files beside it: sums, or the decoded pictures themselves.
 std::vector<std::string> knownSums(const fs::path& stream) {
   std::vector<std::string> sums;
   const std::string stem = stream.stem().string();

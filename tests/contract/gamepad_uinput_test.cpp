@@ -85,8 +85,8 @@ TEST_F(GamepadUinput, APadsRumbleIsTheForceAndStopsWithIt) {
   EXPECT_FALSE(pad.hasEffects());
 }
 
-// Constant force is the kernel's: the level goes the way of its direction. A spring pushes with coefficient times the
-// way to its centre.
+// The push to the right. A constant force has the direction and the level that the kernel's documentation defines; a
+// spring pushes with its coefficient times the distance to its centre.
 double pushOf(const UinputPad& wheel, double place) {
   const auto constant = wheel.effect(FF_CONSTANT), spring = wheel.effect(FF_SPRING);
   double push = 0;
@@ -184,7 +184,7 @@ TEST_F(GamepadUinput, TheListSaysWhatEachCanDoAndWhatIsMissing) {
   EXPECT_EQ(seen[0].path, wheel.node());
   EXPECT_EQ(seen[0].state, "pad: constant force, spring, centring");
   const pid_t child = ::fork();
-  if (child == 0) {  // a user without the right
+  if (child == 0) {  // a user without permission for the device
     const bool dropped = ::setgid(65534) == 0 && ::setuid(65534) == 0;
     const auto refused = lookAtGamepads();
     ::_exit(dropped && !refused[0].there && refused[0].state.find("group input") != std::string::npos ? 0 : 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The complete driver of gamepads on a device that says anything of itself, with any events and failures, and calls in
-// any order: the finger is in the workspace, levels are within theirs, and nothing plays but while it runs.
+// The complete driver of gamepads on a device that claims any properties, with any events and failures, and calls in
+// any order: the finger is in the workspace, levels are within their limits, and effects play only while the driver
+// runs.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <cmath>

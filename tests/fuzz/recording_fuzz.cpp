@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Any text as a recording's name, and as the file that its own program left beside it: what is told of its depth are
-// settings that hold.
+// Any text as a recording's name, and as the file that its own program left beside it: the settings that are read from
+// them are valid.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -38,7 +38,8 @@ void check(const RecordingPlace& place) {
   require(settings.empty() || parseCalibration(settings).has_value(), "settings that a calibration may have");
 }
 
-// A folder of this run alone, two below the one that is removed: the search for a scale goes up.
+// A folder for this run, two levels below the folder that is removed at the end, because the search for a scale also
+// looks in the folders above.
 class Scratch {
  public:
   Scratch() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// HDMI 3D on cards of three kinds of kernel: which mode is set, what is said of it, and what a television sees, held
-// against rays into a relief.
+// HDMI 3D on cards of three kinds of kernel: which mode is set, what is printed about it, and what a television shows,
+// compared with rays into a relief.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The box as it stands in somebody's room: toolchain/appliance-check runs this inside, beside the service, as its
-// screen, its Falcon, its remote control and its bad luck.
+// The appliance in use. toolchain/appliance-check runs this test inside the virtual machine, beside the service. The
+// test plays the part of the screen, the Falcon and the remote control, and causes faults.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -141,8 +141,8 @@ class Appliance : public testing::Test {
     const auto [red, green, blue] = dump.at(dump.width * 5 / 8, dump.height * 3 / 8);
     return dump.width == kWidth && red > 60 && red == green && green == blue;
   }
-  // How far the screen is from a picture above the text, in levels of 255: on average, and in the worst of its squares
-  // of 20 pixels but for eight, in which the finger may be, once for each eye.
+  // How much the screen differs from a picture, above the text, in levels of 255: on average, and in the worst square
+  // of 20 pixels. Eight squares are left out, since each eye's picture of the finger may cover some.
   struct Distance {
     double mean = 255, square = 255;
   };
@@ -301,7 +301,7 @@ TEST_F(Appliance, GarbageCostsTheFilmAndNothingElse) {
   EXPECT_EQ(service(), before) << "it was started anew";
 }
 
-// By whatever ends it without a word, and by what only the service manager's watchdog sees.
+// Signals end it without a chance to react, or it hangs, which only the watchdog of the service manager notices.
 TEST_F(Appliance, KilledOrHungItLetsGoAndComesBack) {
   for (const int number : {SIGKILL, SIGSTOP, SIGSEGV}) {
     SCOPED_TRACE(::strsignal(number));

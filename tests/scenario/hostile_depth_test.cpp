@@ -42,9 +42,9 @@ HapticSummary felt(const Hostile& clip, const SimDeviceName& device, const SimHa
   return bench.report.haptic;
 }
 
-// Without a tank the artefacts gave up to 770 mJ: a force that follows at the slew limit pushes on after the surface
-// has gone (SafetyFilter). The tank bounds that part; the book counts as well that a force which comes late resists
-// less, as much again where the surface leaves and comes back by the same way.
+// Without a tank the artefacts gave up to 770 mJ: a force that follows the scene at the slew limit still pushes when
+// the surface has gone (SafetyFilter). The tank bounds that energy. The artefact's account doubles it where a surface
+// leaves and returns the same way, because a force that rises late also resists the hand less.
 TEST(HostileDepth, PumpsNoMoreThanTheTankGives) {
   const SafetyLimits limits;
   const double most = 2 * (2 * limits.tank_mj + limits.tank_mj_per_s * kFrames * toSeconds(PlayerBench::kPeriod));

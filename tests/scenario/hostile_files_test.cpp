@@ -38,7 +38,7 @@ End playApart(const std::string& film) {
   if (child == 0) {
     const rlimit cpu{.rlim_cur = kMostCpuS, .rlim_max = kMostCpuS};
     ::setrlimit(RLIMIT_CPU, &cpu);
-    ::alarm(100);  // limits a hang
+    ::alarm(100);  // ends a process that hangs
     PlayerBench bench;
     bench.make_source = makeFfmpegSource;
     bench.make_decoder = makeFfmpegDecoder;

@@ -273,7 +273,7 @@ End run(const std::vector<std::string>& words, const std::string& folder) {
   if (child == 0) {
     const rlimit cpu{.rlim_cur = kMostCpuS, .rlim_max = kMostCpuS};
     ::setrlimit(RLIMIT_CPU, &cpu);
-    ::alarm(100);  // limits a hang
+    ::alarm(100);  // ends a process that hangs
     const int out = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), in = ::open("/dev/null", O_RDONLY);
     ::dup2(in, 0), ::dup2(out, 1), ::dup2(out, 2);
     ::execv(arguments[0], arguments.data());

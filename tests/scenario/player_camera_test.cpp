@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs on a depth camera that umockdev plugs into this machine: its live picture is touched, and what it does
-// wrong is told.
+// The programs on a depth camera that umockdev plugs into this machine: its live picture is touched, and its faults are
+// reported.
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 

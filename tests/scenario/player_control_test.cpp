@@ -28,8 +28,8 @@ using testing::HasSubstr;
 
 constexpr std::chrono::milliseconds kNow{0};
 
-// What a program says goes out at a time of the film, counted from the start of the touch, by way of the hand: its
-// place is asked for at every tick.
+// A program sends its lines at given times of the film, counted from the start of touch. The simulated hand triggers
+// the sending, because it is asked for its position at every tick.
 class PlayerAndPrograms : public testing::Test {
  protected:
   void SetUp() override {
@@ -44,8 +44,8 @@ class PlayerAndPrograms : public testing::Test {
   }
   void at(double time_s, const std::string& words) { sayings_.emplace(time_s, words); }
 
-  // Whatever came to each of two programs that were there from the first round on; by then, without a thread, the film
-  // is read ahead.
+  // Plays the film and keeps all that each of two programs receives. Both are connected from the first round on. The
+  // player has no reader thread, so that the film is read ahead by then.
   void play(const std::vector<std::string>& before = {}) {
     auto socket = ControlSocket::listen(folder_ / "control");
     ASSERT_TRUE(socket);

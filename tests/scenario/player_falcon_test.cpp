@@ -92,9 +92,10 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   const WorkspaceMapping mapping = filmMapping();
   std::vector<falcon::Words> computed;
   for (const Tick& tick : ticks) computed.push_back(wordsOf(tick, mapping));
-  // Each command that is not zero is that of a tick, in order. A tick is left out whose command found the one before
-  // still on its way, and those of a machine that stood still so long that the driver let go of the hand: it then
-  // fades in anew, with a share of the force. That share is rounded twice, which now and then makes more than a count.
+  // Each command other than zero must be that of a tick, in order. Two kinds of ticks have no command: those whose
+  // command came while the one before was still being sent, and those of a machine that stopped for so long that the
+  // driver set the force to zero. The force then fades in anew, as a share of the tick's force. That share is rounded
+  // twice, so that it is sometimes more than one count off.
   std::size_t tick = 0, whole = 0, commands = 0, strays = 0;
   for (const falcon::Words& words : model.history()) {
     if (words == falcon::Words{}) continue;
@@ -133,7 +134,7 @@ TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
   EXPECT_NE(text.find("was cancelled"), std::string::npos) << text;
 }
 
-// Once it pushes: asked to end, killed by a fault, by an impatient user, by whatever else ends a process.
+// While the Falcon pushes, the player gets each signal that can end a process.
 TEST(PlayerOnAFalcon, NoSignalThatEndsItLeavesAForce) {
   if (test::machineIsMocked()) GTEST_SKIP() << "umockdev does not stand a program that dies in the middle of a request";
   const test::TemporaryFolder folder;

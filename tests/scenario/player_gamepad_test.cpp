@@ -46,7 +46,7 @@ class PlayerOnAGamepad : public testing::Test {
     }
     return so();
   }
-  // Whether it is the same for a fifth of a second, but for 1 %.
+  // Whether the value stays the same to 1 % for a fifth of a second.
   bool stays(const std::function<double()>& value) {
     const double first = value();
     for (int i = 0; i < 20; ++i) {

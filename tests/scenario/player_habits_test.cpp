@@ -29,7 +29,7 @@ using testing::StartsWith;
 constexpr int kWidth = 320, kHeight = 240;
 constexpr double kRow = kHeight / 720.0;  // of the display over the picture
 
-// Gray, as far as the eye sees; its depth is that of a wall in the middle.
+// A gray picture; its depth is that of a wall in the middle.
 void makeFilm(const std::string& path, int seconds, const std::vector<test::ClipSound>& sounds = {}) {
   const auto even = [](unsigned luma) {
     return [luma](int component, int, int, int) { return component == 0 ? luma : 128U; };

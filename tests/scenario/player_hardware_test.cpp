@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The player on video hardware that umockdev plugs into this machine: who decodes, and what becomes of the film when
-// that hangs or goes.
+// The player on video hardware that umockdev plugs into this machine: which decoder is used, and how the film continues
+// when it hangs or disappears.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -82,7 +82,8 @@ class PlayerNetwork : public testing::Test {
     return played;
   }
 
-  // As the report has it, and from each tick: beyond what the hand's own motion can change, no more than 50 N/s.
+  // Both in the report and from tick to tick, the force changes by at most 50 N/s beyond what the hand's own motion can
+  // change.
   void expectForceWithinLimits() {
     const HapticSummary& haptic = bench_.report.haptic;
     EXPECT_GT(haptic.contact_ticks, 100u);

@@ -41,7 +41,7 @@ class PlayerRate : public testing::Test {
     EXPECT_TRUE(recorder->finish());
     return bench.report;
   }
-  // Of the recorded times.
+  // The number of recorded ticks, and the longest step between their times.
   [[nodiscard]] std::pair<std::size_t, double> countAndLongestStep() const {
     std::ifstream file(folder_ / "ticks.csv");
     std::string line;

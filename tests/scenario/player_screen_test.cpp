@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program on a whole screen, in a guest: from a screen that is off to a picture, and through its being pulled out.
+// The program on a whole screen, in a guest: the screen is off at first, then shows the picture, and is then unplugged.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -46,8 +46,8 @@ class PlayerScreen : public testing::Test {
     return text.str();
   }
   void wait(Duration time) { clock_.sleepUntil(clock_.now() + time); }
-  // While the player waits for the host to read its files, the guest's clock runs as fast as it can: no time is long
-  // enough. A player that never comes to it is ended with the guest.
+  // There is no time limit: while the player waits for the host to read its files, the guest's clock runs as fast as it
+  // can. If the player never gets there, the whole guest is stopped from outside.
   bool waitFor(test::Process& player, const std::function<bool()>& so) {
     while (!so()) {
       if (!player.isRunning()) return false;

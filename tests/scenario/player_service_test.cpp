@@ -108,7 +108,7 @@ TEST_F(PlayerService, AProgramThatFloodsItAndDoesNotReadIsLetGoAndTheFilmGoesOn)
     while (flood.sendBytes(line)) {
     }
   });
-  flooding.join();  // it was let go
+  flooding.join();  // its connection was closed
   const double before = program.ask("status")["position_s"];
   EXPECT_TRUE(program.until([&, asked = false](const json& j) mutable {
     if (j.contains("position_s") && j["position_s"] != before) return true;

@@ -29,7 +29,7 @@ class PlayerWindow : public testing::Test {
 
   void SetUp() override {
     if (screen_ == nullptr) GTEST_SKIP() << test::kNoXServer;
-    // Gray, as far as the eye sees; its depth is that of a wall in the middle.
+    // A gray picture; its depth is that of a wall in the middle.
     test::makeClip(folder_ / "film.mkv",
                    {{.pix_fmt = "yuv420p",
                      .frames = 60,
@@ -200,7 +200,7 @@ TEST_F(PlayerWindow, ItsCloseButtonEndsThePausedFilmWhateverTheRemoteIs) {
   std::ofstream(folder_ / "keys.txt") << "0.5 PAUSE\n0.9 PAUSE\n";  // the first may come too early
   const auto player = play({"--haptic", "none", "--remote", "script:" + folder_ / "keys.txt"});
   EXPECT_TRUE(until([&] { return shows(); }));
-  screen_->tap("q");  // not the remote's
+  screen_->tap("q");  // a key of the window, not of the remote
   std::this_thread::sleep_for(1s);
   EXPECT_TRUE(player->isRunning());
   screen_->askToClose(window_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `relievo probe` tells of films that ffmpeg made, held against ffprobe.
+// What `relievo probe` prints about films that ffmpeg made, compared with ffprobe.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ class ProbeAgrees : public testing::Test {
   [[nodiscard]] std::string text(const std::string& path) const {
     return test::runProgram("relievo probe " + path, at("")).out;
   }
-  // Every field that both tell is the same.
+  // Every field that both programs print is the same.
   void expectAgreement(const std::string& path) const {
     const json theirs = ffprobe(path), ours = relievo(path);
     ASSERT_EQ(ours["tracks"].size(), theirs["streams"].size()) << path;
@@ -126,7 +126,7 @@ TEST_F(ProbeAgrees, OnTracksLanguagesAndChapters) {
   }
 }
 
-// FFmpeg tells these only after it has decoded one.
+// FFmpeg knows the size of such pictures only after it has decoded one.
 TEST_F(ProbeAgrees, OnTheSizesOfSinglePictures) {
   for (const char* name : {"a.tif", "a.jpg", "a.png", "a.bmp"}) {
     const json track = relievo(film("-f lavfi -i testsrc=s=48x32 -frames:v 1", name))["tracks"][0];

@@ -22,7 +22,7 @@ using namespace std::chrono_literals;
 
 class ReplaySession : public testing::TestWithParam<const char*> {
  protected:
-  // Plays six seconds of the film on that device and tells what was recorded.
+  // Plays six seconds of the film on that device and returns the recording.
   std::string record(const std::string& name, std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic) {
     PlayerBench bench;
     bench.sources["film"] = PlayerBench::film(120);

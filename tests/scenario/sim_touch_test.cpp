@@ -75,7 +75,8 @@ std::vector<Held> all() {
 class SimTouch : public testing::TestWithParam<Held> {};
 INSTANTIATE_TEST_SUITE_P(All, SimTouch, testing::ValuesIn(all()));
 
-// It goes as it would without delay, jitter and encoder at eight times the rate, and a hand that is still is still.
+// The device moves as it would without delay, jitter and encoder at eight times the rate, and a hand that is still
+// stays still.
 TEST_P(SimTouch, HoldsWhatTheDevicePromises) {
   const HandMotion motion = GetParam().hand.motion;
   for (const double jitter_ticks : {0.0, 1.0}) {

@@ -48,7 +48,7 @@ TEST_P(BoardRecipes, TheVersionIsTheProjects) {
   EXPECT_EQ(wordsOf(textOf(GetParam()), R"((?:RELIEVO_VERSION|PV) = "?([0-9.]+))"), version);
 }
 
-// Debian's development packages of a box, in the words of the recipe; what is optional there stands with its option.
+// The development packages of Debian that a box needs, by their names in the recipe; optional ones follow their option.
 TEST_P(BoardRecipes, EachLibraryOfTheBoxIsADependency) {
   const std::string recipe = textOf(GetParam());
   const bool yocto = GetParam() == kYocto;
@@ -59,7 +59,7 @@ TEST_P(BoardRecipes, EachLibraryOfTheBoxIsADependency) {
     if (!std::regex_search(recipe, std::regex("[\\s\",]" + name + "[\\s\",]"))) missing.insert(name);
   }
   EXPECT_THAT(missing, IsEmpty());
-  // A package that is new in CMakeLists.txt is new here, and in the list above.
+  // A package that is added to CMakeLists.txt must be added here and in the list above.
   EXPECT_EQ(wordsOf(textOf("CMakeLists.txt"), R"((?:find_package|pkg_check_modules)\((\w+))"),
             (Words{"Threads", "PkgConfig", "glm",      "CLI11",     "tomlplusplus", "nlohmann_json", "FFMPEG", "TIFF",
                    "ALSA",    "LIBUSB",    "LIBEVDEV", "EGL",       "LIBDRM",       "GBM",           "SDL2",   "GLES",

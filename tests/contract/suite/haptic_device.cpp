@@ -22,7 +22,7 @@ constexpr Duration kTick = std::chrono::milliseconds(1);
 bool test::hapticDeviceCases() {
   return true;
 }
-// Without this line a program fails that links this file, by chance, only for an inline function of the standard
+// Without this line a program fails that the linker gives this file only for an inline function of the standard
 // library.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(HapticDeviceContract);
 

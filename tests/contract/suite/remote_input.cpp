@@ -14,7 +14,8 @@ using namespace std::chrono_literals;
 bool test::remoteInputCases() {
   return true;
 }
-// The linker may take this file for an inline function of the standard library that it holds.
+// Without this line a program fails that the linker gives this file only for an inline function of the standard
+// library.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RemoteInputContract);
 
 TEST_P(RemoteInputContract, EveryVerbInEveryState) {

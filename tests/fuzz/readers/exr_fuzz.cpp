@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libOpenEXR itself is not instrumented.
+// Any bytes as an OpenEXR file. libOpenEXR itself is not instrumented.
 #include "drivers/exr/exr.h"
 #include "tests/fuzz/picture_fuzz.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libheif itself is not instrumented.
+// Any bytes as a HEIF file. libheif itself is not instrumented.
 #include "drivers/heif/heif.h"
 #include "tests/fuzz/picture_fuzz.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound recording of OpenNI with bytes changed: the first byte of the input chooses the recording, then each three
+// A valid recording of OpenNI with bytes changed: the first byte of the input chooses the recording, then each three
 // bytes are a position and a value, and 0xffff cuts it off at the position before.
 #include <array>
 

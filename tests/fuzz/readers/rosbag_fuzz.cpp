@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound bag with bytes changed: the first byte of the input chooses the bag, then each three bytes are a position and
+// A valid bag with bytes changed: the first byte of the input chooses the bag, then each three bytes are a position and
 // a value, and 0xffff cuts the bag off at the position before.
 #include <array>
 

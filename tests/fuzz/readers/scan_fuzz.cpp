@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sound scan with bytes changed: the first byte of the input chooses .sens or .klg, then each three bytes are a
+// A valid scan with bytes changed: the first byte of the input chooses .sens or .klg, then each three bytes are a
 // position and a value, and 0xffff cuts it off at the position before.
 #include <cstring>
 

@@ -86,7 +86,8 @@ std::vector<std::string> tracksOf(const std::string& film, const std::string& ki
   for (const std::string& line :
        linesOf(say("ffprobe -v error -select_streams " + kind +
                    " -show_entries stream=codec_name:stream_tags=language,title -of compact=p=0:nk=1 " + film))) {
-    const bool of_programme = line.find('|') == std::string::npos;  // of a transport stream: told twice
+    const bool of_programme =
+        line.find('|') == std::string::npos;  // ffprobe lists each track of a transport stream twice
     if (!of_programme) tracks.push_back(line);
   }
   return tracks;
@@ -124,13 +125,13 @@ class AuthorKeeps : public testing::Test {
     }
     return words;
   }
-  // What it said.
+  // Runs relievo-author and returns what it printed.
   std::string author(const std::string& options, const std::string& source = "@/film.mkv") {
     const auto ran = test::runProgram(inFolder("relievo-author --color " + source + " " + options), folder_ / "");
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     return ran.out;
   }
-  // Every packet of sound track `track` lies at its distance from the first picture.
+  // Every packet of sound track `track` has kept its distance from the first picture.
   void expectSameSound(const std::string& made, int track) const {
     const std::string stream = "a:" + std::to_string(track);
     const std::vector<double> before = timesOf(film_, stream), after = timesOf(made, stream);

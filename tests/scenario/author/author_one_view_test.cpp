@@ -68,7 +68,7 @@ class AuthorOneView : public testing::Test {
                        .from_one_view = OneViewWishes{how, {}}},
                       stop_, [](std::uint64_t, std::optional<std::uint64_t>) {});
   }
-  // How each picture of the film shows the scene's ends.
+  // The nearest and the farthest depth of the scene, as each picture of the film shows them.
   [[nodiscard]] std::vector<ReliefEnds> endsInFilm() const {
     std::vector<ReliefEnds> ends;
     PairReader reader(kBackends);

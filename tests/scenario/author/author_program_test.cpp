@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program relievo-author: its words, wrong use, signals, full disks; a whole film or none.
+// The program relievo-author: its messages, wrong use, signals, full disks; it leaves a whole film or none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

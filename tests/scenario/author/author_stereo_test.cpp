@@ -75,8 +75,8 @@ class AuthorStereo : public testing::Test {
     EXPECT_EQ(reader.info().calibration.calibration.law, DepthLaw::Linear);
     return reader.next().value().value();
   }
-  // The heights of the three boards follow their disparities: the share of the way from the wall to the nearest at
-  // which the middle one lies.
+  // The height of the middle board, as a share of the way from the wall to the nearest board. Heights follow
+  // disparities, so that it must equal `middleBoardInTruth`.
   [[nodiscard]] double middleBoard(const Frame& depth) const {
     const auto at = [&](double x, double y) {
       return static_cast<double>(

@@ -41,7 +41,7 @@ class SampleDecoders : public test::MockedMachine {
     EXPECT_TRUE(made) << made.error().error.message;
     return path;
   }
-  // Of its first second; it plays at its own pace.
+  // The report on the first second of the film, played in real time.
   nlohmann::json reportOf(const std::string& film, const std::string& decoder) {
     std::ofstream(folder_ / "keys.txt") << "1 POWER\n";
     const auto played =

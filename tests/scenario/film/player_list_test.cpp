@@ -121,7 +121,7 @@ TEST_F(PlayerLists, SeveralSourcesArePlayedOneAfterTheOther) {
   EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b", "c"));
 }
 
-// Not so in a list that another program has made.
+// Films that the user names, unlike the entries of a playlist, must all be there: a missing one is a failure.
 TEST_F(PlayerLists, AMissingOneOfSeveralSourcesIsAFailureAfterTheOthers) {
   for (const char* missing : {"film", "b", "c"}) {
     bench_.sources = {{"film", PlayerBench::film(25)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};

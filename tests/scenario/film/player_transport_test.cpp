@@ -42,7 +42,8 @@ TEST_F(PlayerTransport, FullScreenIsTheWindowsAndEscapeLeavesTheFilmPlaying) {
   EXPECT_EQ(bench_.report.frames_shown, 100u);
 }
 
-// The page covers the picture: what a key does beneath it, nobody would see. Arrows turn it, any other key closes it.
+// The page of keys covers the picture, so that a viewer would not see what a key does to the film. Arrows turn the
+// page, any other key closes it.
 TEST_F(PlayerTransport, AKeyPressedOverThePageOfKeysLeavesTheFilmAsItIs) {
   std::vector<FullScreen> wishes;
   bench_.display.filled = [&](FullScreen wish) { wishes.push_back(wish); };

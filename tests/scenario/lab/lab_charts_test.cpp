@@ -91,7 +91,7 @@ TEST_F(LabCharts, TheMapHoldsEveryMethodInEveryScenario) {
   }
 }
 
-// A legend is of what is drawn: these lose the moving face, and have no spectrum.
+// The legend lists only curves that are drawn. A method that loses the moving face has no spectrum.
 TEST_F(LabCharts, AMethodWithoutACurveIsNotInTheLegend) {
   const std::string svg = textOf(out("smoothness.svg"));
   EXPECT_NE(svg.find(">god-object-smoothed, 1 ahead<"), std::string::npos);
@@ -113,8 +113,8 @@ TEST_F(LabCharts, EveryTimedRowHasItsTimesInOrder) {
   EXPECT_GT(csv.value({{"method", "relievo"}, {"speed_m_per_s", "0.1"}, {"caches", "cold"}}, "update_median_us"), 0);
 }
 
-// Of a movement of 0.7 Hz in 15 frames/s holding leaves an image of 0.7/15 beside the frame rate, and interpolating in
-// a line the square of that: 26 dB less.
+// Holding the frames of a movement of 0.7 Hz at 15 frames/s leaves an image of 0.7/15 of it beside the frame rate.
+// Linear interpolation leaves the square of that share: 26 dB less.
 TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
   const Csv csv(out("smoothness-peaks.csv"));
   const auto value = [&](const char* method, const char* finger, const char* rate, const char* column) {
@@ -125,7 +125,8 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
       EXPECT_GT(value("relievo linear", finger, rate, "under_hold_db"), 15) << finger << rate;
       EXPECT_GT(value("modified-proxy-graph", finger, rate, "under_hold_db"), 15) << finger << rate;
       EXPECT_GT(value("relievo", finger, rate, "under_hold_db"), 50) << finger << rate;
-      // At 30 frames/s the plan takes the B-spline, for what a codec leaves: without a codec it flattens a little.
+      // At 30 frames/s the plan chooses the B-spline, because of the noise that a codec leaves. On depth without a
+      // codec it flattens a little.
       EXPECT_LE(
           value("relievo", finger, rate, "force_rms_percent"),
           (rate == std::string_view("30") ? 1.2 : 1.05) * value("relievo linear", finger, rate, "force_rms_percent"))
@@ -186,7 +187,7 @@ TEST_F(LabCharts, AnEdgeIsWithinAMillimetreAndLetsGoBeyondIt) {
   EXPECT_GT(value("relievo 0.72", "8-bit", "0", "5", "fall_off_rms_mm"), 1.5) << "what one width costs";
 }
 
-// What is coded finer costs more and is truer, whatever the codec; bits that are not there cannot be felt.
+// Finer coding of the depth costs more kbit/s and brings a smaller error, with every codec.
 TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
   const Csv csv(out("bitrate.csv"));
   const auto value = [&](const char* codec, const char* bits, const char* crf, const char* column) {
@@ -213,7 +214,7 @@ TEST_F(LabCharts, FinerDepthCostsMoreAndIsTruer) {
   }
 }
 
-// Every matcher is beside the truth, and the settings that people get are marked on every film.
+// The chart compares every matcher with the true depth, and marks the settings that users get on every film.
 TEST_F(LabCharts, DepthFromTwoViewsIsTruerWithTextureAndWithoutACodec) {
   const Csv csv(out("stereo.csv"));
   const auto percent = [&](const char* axis, const char* value, const char* matcher) {

@@ -76,7 +76,7 @@ TEST_F(LabDetail, TheNetworkIsNearerToTheTruthThanAGridOfMoreTriangles) {
     }
     EXPECT_GE(compared, 4) << error;
   }
-  // Nor does the grid of all samples, with twenty times as many.
+  // The grid of all samples, with twenty times as many triangles, is no nearer either.
   EXPECT_GT(of("truth_psnr_db", "network", "0.5"), of("truth_psnr_db", "grid", "1"));
 }
 

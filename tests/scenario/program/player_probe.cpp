@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `relievo probe` tells of a source, and of the plan.
+// What `relievo probe` prints about a source and about the plan.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing::IsEmpty;
 
-// As in many a transport stream and MP4: the reader has to go further for it than for the pictures.
+// The container stores the sound later than its pictures, as many transport streams and MP4 files do, so that the
+// reader has to read further for it.
 TEST_F(PlayerSound, LiesLateInTheFilmAndIsThereFromTheFirstPictureOn) {
   film(500);
   sound().late = 1200ms;
@@ -24,7 +25,7 @@ TEST_F(PlayerSound, LiesLateInTheFilmAndIsThereFromTheFirstPictureOn) {
   EXPECT_EQ(bench_.report.sound.underruns, 0u);
 }
 
-// Further than anybody looks for it: the pictures do not wait, and it is heard where it can.
+// The sound lies further away than the reader looks for it. The pictures must not wait for it.
 TEST_F(PlayerSound, TooLateInTheFilmToBeHeardDoesNotHoldThePictures) {
   film(500);
   sound().late = 60s;
@@ -129,7 +130,7 @@ TEST_F(PlayerSound, WhoHasNothingToHearIsNotToldOfTheCard) {
   EXPECT_THAT(bench_.report.faults, IsEmpty());
 }
 
-// Some outputs take whatever comes and say that it was heard.
+// Some outputs accept all samples at once and report that they were played.
 TEST_F(PlayerSound, AnOutputThatKeepsNoTimeDoesNotLeadTheFilm) {
   film(500);
   bench_.audio->paced = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Films with sound in simulated time: each picture against the very sample that is in the air when it is shown.
+// Films with sound in simulated time: each picture is compared with the sample that is heard when it is shown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
@@ -84,7 +84,7 @@ TEST_F(PlayerSound, SoundThatIsLongerThanThePicturePlaysToItsEnd) {
   EXPECT_THAT(bench_.report.faults, IsEmpty());
 }
 
-// Ten minutes on a card whose crystal is off by 200 ppm: unled, that is 120 ms.
+// Ten minutes on a card whose crystal is off by 200 ppm: without correction, the sound would be 120 ms off at the end.
 class PlayerSoundDrift : public PlayerSound, public testing::WithParamInterface<double> {};
 INSTANTIATE_TEST_SUITE_P(Ppm, PlayerSoundDrift, testing::Values(200.0, -200.0),
                          [](const auto& test) { return test.param > 0 ? "Fast" : "Slow"; });
@@ -120,7 +120,7 @@ TEST_F(PlayerSound, WaitsForAScreenThatIsSlow) {
   playsWell();
   // The clock starts with the first picture; every later picture is late by one refresh.
   const double late_s = moments_[0].time_s + 0.02;
-  std::erase_if(moments_, [late_s](const Moment& moment) {  // what is drawn anew between two
+  std::erase_if(moments_, [late_s](const Moment& moment) {  // drops the redraws between two pictures
     return std::abs(std::remainder(moment.time_s - late_s, 0.04)) > 0.01;
   });
   ASSERT_GE(moments_.size(), 490u);
@@ -140,7 +140,7 @@ TEST_F(PlayerSound, APauseIsSilentAtOnceAndSoundGoesOnWhereThePictureDoes) {
   for (const Moment& moment : takeMoments(5.02, 8.035)) EXPECT_FALSE(moment.heard_s) << moment.time_s;
   ASSERT_EQ(moments_.size(), 500u);
   EXPECT_LT(worstOffsetMs(25, 125), 10.0);
-  // The latency is known by then: the second start is right, but that nothing is heard while it lasts.
+  // The latency is known by then, so that the second start is in time. While the output starts, nothing is heard.
   EXPECT_LT(worstOffsetMs(129, 500), 10.0);
   EXPECT_EQ(bench_.report.sound.realigned, 1u);
   EXPECT_EQ(bench_.report.sound.underruns, 0u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bin around avdec_h264; its faults are a probe of what that puts out.
+// A bin around avdec_h264; a probe on its output makes the faults.
 #include "tests/support/device/gstreamer_element.h"
 
 #include <gst/allocators/gstdmabuf.h>

@@ -71,7 +71,7 @@ void sendXdnd(Display* display, Window from, Window to, const char* type, const 
   XSync(display, False);
 }
 
-// Answers the one who asks for what is dropped.
+// Gives the dropped data to the window that asks for it.
 void handOver(Display* display, const XSelectionRequestEvent& asked, const std::string& uri) {
   XChangeProperty(display, asked.requestor, asked.property, asked.target, 8, PropModeReplace,
                   reinterpret_cast<const unsigned char*>(uri.data()), static_cast<int>(uri.size()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much whole frames flicker, told apart from motion.
+// How much whole frames flicker, as distinct from motion.
 #include "app/depth_window/flicker.h"
 
 #include <gtest/gtest.h>
@@ -35,14 +35,13 @@ std::vector<TimedSurface> filmOf(int count, const Made& change) {
 
 constexpr double kShifts[] = {0.3, -0.2, 0.4, -0.5};
 
-// Turns of the changes by hand: of the shifts .3 -.2 .4 -.5 the changes are -.5 .6 -.9, and their differences 1.1 and
-// -1.5.
+// By hand: the shifts .3 -.2 .4 -.5 change by -.5 .6 -.9, and these changes by 1.1 and -1.5.
 TEST(Flicker, IsTheStandardDeviationOfShiftsThatAlternate) {
   const auto film = filmOf(4, [](double h, double, int k) { return h + kShifts[k]; });
   EXPECT_NEAR(flickerMm(film), std::sqrt((1.1 * 1.1 + 1.5 * 1.5) / 2 / 6), 0.01);
 }
 
-// Scaled by 1 + s, a height h is off by s h: with the mean and the deviation of the heights, their root mean square.
+// Scaling by 1 + s shifts a height h by s h. The root mean square of the heights takes the place of one shift for all.
 TEST(Flicker, CountsScalesByTheHeights) {
   const auto film = filmOf(4, [](double h, double, int k) { return h * (1 + 0.02 * kShifts[k]); });
   double square = 0;
@@ -54,7 +53,7 @@ TEST(Flicker, CountsScalesByTheHeights) {
   EXPECT_NEAR(flickerMm(film), 0.02 * height * std::sqrt((1.1 * 1.1 + 1.5 * 1.5) / 12), 0.01);
 }
 
-// A third of the picture falls back faster and faster; all of it flickers.
+// A third of the picture moves away faster and faster, and the whole picture flickers.
 TEST(Flicker, IsThatOfThePlacesThatDoNotMoveByThemselves) {
   const auto film = filmOf(4, [](double h, double x, int k) { return h + kShifts[k] + (x > 27 ? -0.8 * k * k : 0); });
   EXPECT_NEAR(flickerMm(film), std::sqrt((1.1 * 1.1 + 1.5 * 1.5) / 12), 0.03);

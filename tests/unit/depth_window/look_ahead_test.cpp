@@ -27,7 +27,8 @@ TEST(LookAhead, IsWhatTheAgeLeavesRoomFor) {
   EXPECT_EQ(lookAheadFor(microseconds(33'333), milliseconds(30)), (LookAhead{1, microseconds(15'333)}));
 }
 
-// 1/pi s is how long what nods once a second may be carried, the period included.
+// The surface of something that nods once a second may be carried forward so far that this time and the period are at
+// most 1/pi s.
 TEST(LookAhead, IsNotCarriedFurtherThanAnOldSurfaceIsOff) {
   EXPECT_EQ(lookAheadFor(milliseconds(33), milliseconds(300)).carried, milliseconds(33)) << "a period at most";
   EXPECT_NEAR(toSeconds(lookAheadFor(milliseconds(200), milliseconds(10)).carried), 0.3183 - 0.2, 1e-4);
@@ -74,7 +75,7 @@ TEST(Arrivals, AgeIsTheFramesAheadAndTheDelay) {
   EXPECT_EQ(Arrivals{}.age({1, Duration(0)}), Arrivals::kMargin) << "nothing is known";
 }
 
-// Two of a hundred may be late, a third one raises the age; a while after it the age is as before.
+// Two late frames in a hundred do not raise the age, a third one does. Some time later the age is as before.
 TEST(Arrivals, ALoneLateFrameDoesNotCount) {
   Arrivals arrivals;
   int k = 0;

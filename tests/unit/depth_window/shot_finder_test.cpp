@@ -84,7 +84,8 @@ TEST(ShotFinder, WhatCanBeReadDecidesHoweverLittleItIs) {
   EXPECT_EQ(shotsWithHoles(4, [](int k, int c) { return c > kCols / 5 ? 0 : k < 2 ? 100 : 190; }), (Shots{0, 0, 1, 1}));
 }
 
-// A rise of 6 mm a frame is one in the frame before; that the sensor sees nothing in the frame after says nothing.
+// The picture rises by 6 mm in each frame, so that a rise is no cut. Holes in the frame after it are no sign of a cut
+// either.
 TEST(ShotFinder, ARiseIsNoCutWhereTheFrameAfterItIsAllHoles) {
   EXPECT_EQ(shotsWithHoles(4, [](int k, int) { return k == 3 ? 0 : 20 + 40 * k; }), (Shots{0, 0, 0, 0}));
 }

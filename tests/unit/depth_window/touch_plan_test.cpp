@@ -184,8 +184,8 @@ TEST(TouchPlan, OfAFilmItsFirstFourFramesTell) {
   EXPECT_FALSE(planTouch(measureClip(surfaces)).measure.still);
 }
 
-// Noise below one step of the codes is no noise that the smoother law would be worth; and however coarse the codes are,
-// the wide level leaves the narrow one by 0.3 mm at most.
+// Noise of less than one step of the codes is no reason for the smoother time law. However coarse the codes are, the
+// wide level differs from the narrow one by 0.3 mm at most.
 TEST(TouchPlan, NoiseIsWhatIsMoreThanAStep) {
   const ClipMeasure coarse{.frames = 4, .quantum_mm = 0.6, .noise_mm = 0.03, .sample_mm = 0.5, .period_s = kPeriod};
   EXPECT_EQ(planTouch(coarse).scale.narrow_time, TimeLaw::Linear);

@@ -18,7 +18,7 @@ using testing::ElementsAre;
 
 constexpr DisplayVolume kVolume{160, 108, 40};
 
-// A flat frame whose height tells one scene from another.
+// A flat frame whose height identifies its scene.
 TimedSurface frameAt(int time_ms, double height_mm = 10) {
   const Frame frame = test::makeReliefFrame(16, 12, kVolume, MediaTime(std::chrono::milliseconds(time_ms)),
                                             [&](double, double) { return height_mm; });

@@ -75,7 +75,7 @@ TEST(FfmpegSource, TellsHowMuchIsMissingOfACutAviWithSound) {
   }
 }
 
-// Of 100 ms each. Whether whole pictures are missing behind the last one cannot be known.
+// Pictures of 100 ms each. Whether whole pictures after the last one are missing cannot be known.
 TEST(FfmpegSource, TellsThatAY4mFileEndsWithinAPicture) {
   TemporaryFolder folder;
   std::string film = "YUV4MPEG2 W16 H8 F10:1 Cmono\n";
@@ -114,7 +114,8 @@ TEST(FfmpegSource, TellsHowMuchIsMissingOfAMultiplexThatIsCutWhileItIsRead) {
   }
 }
 
-// As a copy leaves it that was broken off on a file system which had given it its size. 48 pictures are 2 s.
+// The file of a copy that was broken off, on a file system that had reserved the whole size for it. 48 pictures are 2
+// s.
 TEST(FfmpegSource, TellsThatATransportStreamEndsInWhatIsNone) {
   TemporaryFolder folder;
   const ClipTrack large{.codec = "mpeg2video", .pix_fmt = "yuv420p", .width = 320, .height = 240, .frames = 48};
@@ -130,7 +131,7 @@ TEST(FfmpegSource, TellsThatATransportStreamEndsInWhatIsNone) {
   EXPECT_LT(toSeconds(source->missing()), 2 - there);
 }
 
-// 48 pictures are 2 s. What a sender, a recorder or another program puts behind a film is none of it.
+// 48 pictures are 2 s. What a sender, a recorder or another program adds after a film does not count as part of it.
 TEST(FfmpegSource, AMultiplexWithATailThatIsNoPictureIsWhole) {
   std::string nulls, padding, noise;  // of 180 KB: ISO/IEC 13818-1, 2.4.3.3 and 2.4.3.7
   for (int i = 0; i < 1000; ++i) nulls += std::string("\x47\x1f\xff\x10", 4) + std::string(184, '\xff');
@@ -189,8 +190,8 @@ TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
   }
 }
 
-// 48 pictures are 2 s. Where a seek skips the subtitle, nothing that was read lasts to the end that the container
-// states.
+// 48 pictures are 2 s. The container's end is that of a subtitle. If a seek skips it, no packet that was read reaches
+// that end, but nothing is missing.
 TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
   TemporaryFolder folder;
   ClipTrack track = kH264;

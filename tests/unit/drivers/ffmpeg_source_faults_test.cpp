@@ -49,7 +49,7 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   writeFile(folder / "empty.mkv", "");
   writeFile(folder / "noise.mkv", std::string(300, '\xff'));
   makeClip(folder / "no-index.mov", {kH264});
-  cutFile(folder / "no-index.mov", 0.5);  // the index stands at the end
+  cutFile(folder / "no-index.mov", 0.5);  // the index is at the end
   for (const char* name : {"text.mkv", "text.txt", "umlauts.mp4"}) {
     EXPECT_EQ(openErrorOf(folder / name).code, ErrorCode::Corrupt) << name;
     EXPECT_THAT(openErrorOf(folder / name).message, HasSubstr("it is text, not a film")) << name;
@@ -60,7 +60,7 @@ TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
   }
 }
 
-// FFmpeg opens a film by itself where it is a pattern or has a protocol; its code tells the same.
+// FFmpeg opens patterns and addresses with a protocol by itself; its error code must lead to the same message.
 TEST(FfmpegSource, WithoutADescriptorItNamesTheLimit) {
   TemporaryFolder folder;
   makeClip(folder / "a.mkv", {ClipTrack{.frames = 2}});

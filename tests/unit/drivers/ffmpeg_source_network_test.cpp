@@ -89,7 +89,7 @@ TEST_F(Playlists, OfANetworkNameNothingOfThisMachine) {
   EXPECT_EQ(packetsOf(server.url("outer.m3u8")), 0u);
 }
 
-// Without a bound: 180,000 requests a minute and a gigabyte, until opening timed out.
+// Without a bound, there would be 180,000 requests a minute and a gigabyte of memory until opening timed out.
 TEST_F(Playlists, ThatNameThemselvesAreAskedForABoundedNumberOfTimes) {
   const test::HttpServer server(at(""));
   writeFile(at("self.m3u8"), "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\nself.m3u8\n");
@@ -129,7 +129,7 @@ struct Server {
   [[nodiscard]] UniqueFd accept() const { return UniqueFd(::accept(listener.get(), nullptr, nullptr)); }
 };
 
-// What a server answers to everything, and the sentence for it.
+// What a server answers to everything, and the error message for it.
 TEST(FfmpegSource, EachKindOfNetworkErrorHasItsSentence) {
   const auto answered = [](const std::string& answer) {
     Server server;

@@ -17,7 +17,8 @@ std::string zeroEnded(std::string_view text) {
   return std::string(text) + '\0';
 }
 
-// Half bytes in pairs: pairs without a step are counted, what follows a pair is put behind it.
+// OpenNI's half bytes, two in a byte. Pairs without a step are only counted; `behind` is added after the byte that a
+// half completes.
 class HalfBytes {
  public:
   void half(unsigned value, std::string_view behind = {}) {
