@@ -7,7 +7,7 @@ SAID = "the file system does not answer within 10 s; check the mount"
 PLAY = "relievo play & --display mock --haptic sim --audio null --remote none"
 AUTHOR = "relievo-author --color & -o @/"
 
-# What is asked, the operation that stalls, and the output; @ is the mount, & a film elsewhere.
+# The command, the operation that stalls, and the output; @ is the mount, & a film elsewhere.
 GIVEN_UP = tuple((f"{AUTHOR}out.{kind}", operation, f"out.{kind}") for kind, operations in (
     ("mkv", ("create", "write", "fsync", "rename")), ("mp4", ("write", "read")), ("ts", ("write",)),
     ("m3u8", ("mkdir", "create", "write", "fsync", "rename"))) for operation in operations) + (

@@ -36,8 +36,9 @@ bool isRegistry(std::string_view path) {
   return folderOf(path) == "drivers" && path.starts_with("drivers/registry");
 }
 
-// What the rooms of the application may use of one another, besides hal and platform. A file's room is the longest
-// folder here that holds it; a room may use its own folder, and what a room `uses` is a folder with all below it.
+// What each folder of the application ("room") may include from others, besides hal and platform. A file belongs to the
+// longest folder of this list that contains it. It may include its own folder; a folder in `uses` includes all folders
+// below it.
 struct Room {
   std::string_view folder;
   std::vector<std::string_view> uses;
@@ -72,7 +73,7 @@ const std::vector<Room>& rooms() {
       {"app/author",
        {"app/author", "app/scene", "app/media", "app/coding", "app/depth_window", "app/cli", "app/enhance",
         "app/estimate", "app/motion", "app/stereo"}},
-      {"app/lab/truth", {"app/scene"}},  // what the methods are held against is made without them
+      {"app/lab/truth", {"app/scene"}},  // the truth that the methods are compared with does not use them
       {"app/lab",
        {"app/lab", "app/scene", "app/media", "app/coding", "app/depth_window", "app/haptics", "app/render", "app/cli",
         "app/enhance", "app/stereo"}},
@@ -255,7 +256,7 @@ TEST(Layers, EachKindOfOffenceIsSeen) {
       Example{"app/player/player.cpp", "#include \"drivers/registry.h\"\n"},
       Example{"app/player/main.cpp", "#include \"drivers/mock/mock.h\"\n"},
       Example{"app/player/main.cpp", "#include \"tests/support/film.h\"\n"},
-      Example{"app/nowhere/file.cpp", "#include \"app/scene/height_field.h\"\n"},  // a room that nobody has planned
+      Example{"app/nowhere/file.cpp", "#include \"app/scene/height_field.h\"\n"},  // a folder that is not in the list
   };
   for (const Example& example : bad) {
     EXPECT_THAT(offences(example.path, example.text), SizeIs(1)) << example.path << ": " << example.text;

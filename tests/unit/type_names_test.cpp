@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A type's name is that of one type: two of one name in two headers are one definition too many for the linker, and two
-// meanings for the reader.
+// No two headers define a type of the same name: the linker would mix up their functions, and the reader their meaning.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

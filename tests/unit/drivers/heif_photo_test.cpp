@@ -17,7 +17,7 @@ namespace {
 constexpr int kCols = test::kHeicCols, kRows = test::kHeicRows;
 constexpr double kLeast = 0.4, kMost = 2.5;  // disparities, 1/m
 
-// A picture as it is coded: `right` to the left of a phone that was held upright.
+// The codes as they lie in the file: the phone was held upright, so that the stored picture is turned.
 std::uint32_t disparityCode(int c, int r) {
   return static_cast<std::uint32_t>(40 + c + r / 2);
 }

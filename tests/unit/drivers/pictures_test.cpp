@@ -25,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// The names tell moments, in ns.
+// These names hold these times, in ns.
 void expectMoments(const std::vector<std::string>& names, const std::vector<std::int64_t>& ns) {
   const auto told = valuesOf(names);
   EXPECT_EQ(told.kind, NameKind::Seconds) << names[0];

@@ -85,7 +85,7 @@ TEST_P(RosbagVariants, SeeksToThePictureAtOrBeforeTheTarget) {
   expectDepth(framesOf(*source, depth));
 }
 
-// Cut at every 149th byte: what is whole before the cut is played, and the end is an end.
+// Cut at every 149th byte: the whole pictures before the cut are played, and then the film ends without an error.
 TEST_P(RosbagVariants, CutOffAnywhereItPlaysWhatIsWhole) {
   const std::string bag = rosBag(GetParam().compression, GetParam().indexed);
   std::size_t before = 0;
@@ -178,7 +178,7 @@ std::uint64_t bytesRead() {
   return count;
 }
 
-// 128 chunks of 16 MiB, in which a picture stands before a message of another kind.
+// 128 chunks of 16 MiB, in each of which a picture comes before a message of another kind.
 TEST_F(RosbagSource, ALargeBagIsNeverReadWhole) {
   if (bytesRead() == 0) GTEST_SKIP() << "the kernel does not count what is read";
   constexpr int kChunks = 128;

@@ -94,7 +94,7 @@ class Network : public testing::Test {
     std::ofstream(path, std::ios::binary) << model;
     return path;
   }
-  // Left half red and right half a gray; as wide as high twice.
+  // The left half is red, the right half gray.
   static RawPicture picture(int cols, int rows) {
     RawPicture picture(cols, rows);
     for (std::size_t i = 0; i < picture.size(); ++i) {

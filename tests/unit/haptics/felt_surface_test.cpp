@@ -81,8 +81,8 @@ TEST(FeltSurface, CarriedForwardAMovingPlaneIsWhereItWillBe) {
   }
 }
 
-// A step of 15 mm that goes by: beside it there is nothing that moves, and nothing over the step's top or under its
-// foot.
+// A step of 15 mm moves past. Its edge, carried forward in time, must not raise the surface above the step's top or
+// lower it below the ground.
 TEST(FeltSurface, CarriedForwardAnEdgeThrowsNothingBeyondItsSides) {
   const auto frames = film(8, [](double x, double, double t) { return x < 60 * (t - 0.1) ? 25 : 10; });
   SurfaceWindow w = makeWindow(frames, kVolume);
@@ -164,11 +164,11 @@ double edgeAt(double edge_mm, double x) {
   return x < edge_mm ? 30 : 10;
 }
 
-// An edge goes to the right from frame to frame, far or by less than a control point's pitch. Tick by tick, with a
-// window that goes on, it is felt where one who has seen no tick before finds it.
+// An edge moves to the right from frame to frame, by much or by less than a control point's pitch. A surface that is
+// evaluated tick by tick, while the window moves on, must have the edge where a fresh surface has it.
 TEST(FeltSurface, WhatIsLeftOfATickDoesNotShowWhereAnEdgeMoves) {
   constexpr double kRampMm = 2;
-  constexpr double kX = 0.45;  // from 0.25 to 0.65 mm it hangs from the same control points
+  constexpr double kX = 0.45;  // from 0.25 to 0.65 mm it depends on the same control points
   for (const double way_mm : {3.0, 0.2}) {
     const auto frames = film(9, [&](double x, double, double t) {
       const double edge = way_mm * (t / kPeriod - 3);
@@ -214,7 +214,7 @@ TEST(FeltSurface, TheMotionOfAnEdgeEndsWithItsEpoch) {
   for (const double x : {-1.5, -0.5, 0.0, 0.5, 1.5}) EXPECT_NEAR(s.height(x, 0), fresh.height(x, 0), 1e-4) << x;
 }
 
-// Beyond the cut there is an edge 2 mm further on: not where this one goes.
+// Beyond the cut there is an edge 2 mm further on, which is not the same edge.
 TEST(FeltSurface, AnEdgeDoesNotMoveOverACut) {
   const auto frames = film(5, [](double x, double, double t) { return edgeAt(t < 2.5 * kPeriod ? 0 : 2, x); });
   SurfaceWindow window = makeWindow(frames, kVolume);

@@ -29,7 +29,8 @@ TEST_F(HapticTaskTest, TheClutchTakesTheForceAway) {
   EXPECT_NEAR(glm::length(device_.force), 0, 1e-9);
 }
 
-// The hand goes to where the device ends while it is clutched, and while the depth is late: it is stopped softly there.
+// While clutched, and while the depth is late, the hand moves to the end of the device's range and is stopped softly
+// there.
 TEST_F(HapticTaskTest, TheEndsOfTheWorkspacePushAlsoWhereNothingIsFelt) {
   device_.position = {0, 0, -48};  // 2 mm into the last 4 of 50: 0.2 N/mm
   device_.buttons = 2U;

@@ -117,7 +117,7 @@ TEST_F(RelievoCutTest, FrictionOnALoweredSurfaceIsThatOfTheForceThatIsFelt) {
   EXPECT_NEAR(-touch.force_n.x, 0.3, 0.03);
 }
 
-// At the second cut the finger feels 0.5 N, and no more after it: what it felt at the first one is over.
+// At the second cut the finger feels 0.5 N, and no more afterwards: the force before the first cut no longer counts.
 TEST_F(RelievoCutTest, ASecondCutEndsInTheForceBeforeItAndNotInThatBeforeTheFirst) {
   const auto flat = [](double z) { return picture([z](double, double) { return z; }); };
   SurfaceWindow w = flat(12);
@@ -170,7 +170,7 @@ TEST_F(RelievoCutTest, AResetTakesTheLoweringBack) {
   for (int i = 150; i < 200; ++i) ASSERT_FALSE(tick(i * kTick, {0, 0, 20 - 0.1 * (i - 150)}).contact) << i;
 }
 
-// 0.35 mm come back by 0.1 mm a tick, and not by 0.4.
+// A surface lowered by 0.35 mm rises by 0.1 mm a tick. The last step is 0.05 mm, so that it does not end at 0.4 mm.
 TEST_F(RelievoCutTest, ALoweredSurfaceComesBackToWhereItIsAndNoFurther) {
   const auto flat = [](double z) { return picture([z](double, double) { return z; }); };
   SurfaceWindow w = flat(12);

@@ -58,8 +58,8 @@ TEST(SafetyFilter, TreatsWhatIsNotFiniteAsZeroForce) {
   }
 }
 
-// For a second the scene asks for far more than the limit. What is asked for then is there at the scene's rate: nothing
-// of the rest has been saved up.
+// For a second the scene asks for far more force than the limit. When it then asks for none, the force falls at the
+// scene's rate at once: the excess was not saved up.
 TEST(SafetyFilter, AForceOverTheLimitIsNotRememberedBeyondIt) {
   SafetyFilter filter({.force_n = 5, .limit_energy = false}, 0.5);
   for (int i = 0; i < 1000; ++i) static_cast<void>(filter.apply({0, 0, 100}, kRest, kTick));
@@ -291,7 +291,7 @@ TEST(EnergyBooks, AFingerThatHasRestedHasNotBeenOnItsWay) {
   EXPECT_EQ(books.artefactMj(), 0);
 }
 
-// 5 N that nobody wants over 10 mm are 50 mJ. So much is not asked back of the hand.
+// An unwanted force of 5 N over 10 mm is 50 mJ. The filter must not take that much back from the hand.
 TEST(EnergyBooks, OfAJumpsEnergyNoMoreThanAMillijouleStaysOpen) {
   EnergyBooks books(0.5);
   books.tick({0, 0, 0}, {}, {}, {0, 0, 5}, kTick);
@@ -307,7 +307,7 @@ TEST(EnergyBooks, AWayOfNoTimeIsBookedWithTheForceThatWasSent) {
   EXPECT_NEAR(books.artefactMj(), 0.2, 1e-12);
 }
 
-// What was wanted before the reset is not what the way after it begins with.
+// The first interval after a reset begins with the force wanted after it, not with the one before it.
 TEST(EnergyBooks, TheFirstTickAfterAResetBeginsAWay) {
   EnergyBooks books(0.5);
   const glm::dvec3 push(0, 0, 1), none(0);

@@ -70,7 +70,7 @@ TEST(SmoothLevel, TheBroadLevelAloneIsReadWhereItCounts) {
 }
 
 // Beside a hole, further away than the wide level's control points reach and nearer than the broad level's do. A block
-// that the hole just cuts has the height of the rest of it.
+// that the hole only cuts has the mean height of its other samples.
 TEST(SmoothLevel, WhatLiesBeyondAPointThatIsNotStraightIsNotFelt) {
   const auto frames = film([](double x, double, double) { return x > 0 ? 0.0 : 12.0; });
   const SurfaceWindow window = test::makeWindow(frames, kVolume, {.bits = 16, .invalid = 0});

@@ -35,10 +35,10 @@ TEST_P(TouchRate, TheScenesForceComesAtFiftyNewtonsPerSecond) {
   }
 }
 
-// 5 N and nothing wanted: the force goes by 50 N/s and by as much as the hand's 400 mm/s take of 0.5 N/mm, 250 N/s in
-// all, so in 20 ms. Meanwhile the hand goes 8 mm at 2.5 N on average: 20 mJ, all that the tank has; at 500 Hz 3 less,
-// since in each tick the force at its end counts. The tank is refilled by 10 mJ/s, and the share of the force is twice
-// what is in it: half more after 0.5 s, all after 1 s.
+// From 5 N to a wanted 0 N: the force falls by 50 N/s, and by 200 N/s more because the hand moves out at 400 mm/s
+// against 0.5 N/mm, so that it takes 20 ms. Meanwhile the hand moves 8 mm at 2.5 N on average: 20 mJ, all that the tank
+// has. At 500 Hz it is 3 less, since the force at the end of each tick counts. The tank is refilled by 10 mJ/s, and the
+// share of the force is twice the share that the tank is full: it rises by half in 0.5 s and is whole after 1 s.
 TEST_P(TouchRate, TheTankIsEmptiedByALagAndRefilledInTheSameSeconds) {
   SafetyFilter filter({}, kStiffness);
   for (int i = 0; i < ticksIn(0.2); ++i) static_cast<void>(filter.apply({0, 0, 5}, glm::dvec3(0), tickS()));

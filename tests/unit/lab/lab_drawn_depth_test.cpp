@@ -53,9 +53,9 @@ TEST(DrawnDepth, APlaneStaysWhatItIsAtEveryLevel) {
   EXPECT_LT(drawn(plane, {.error_px = 4}).triangles, 100U);
 }
 
-// A single sample of 8 mm at (12, 12) is a corner of grids whose step divides 12. Of the cell below it on its right,
-// that ends at (16, 16), the diagonal comes from it: half way down the slope it is at 4 mm, and one beside the diagonal
-// at (14, 13) lies in the triangle (12, 12), (16, 16), (16, 12): 8 (1 - 2/4).
+// A single sample of 8 mm at (12, 12) is a corner of grids whose step divides 12. The cell to its lower right ends at
+// (16, 16), and its diagonal starts at the sample: half way down that slope the height is 4 mm. The place (14, 13)
+// beside the diagonal lies in the triangle (12, 12), (16, 16), (16, 12): 8 (1 - 2/4).
 TEST(DrawnDepth, AGridGoesStraightBetweenItsSamples) {
   const Frame spike = relief([](double x, double y) { return x == -36 && y == 20 ? 8.0 : 0.0; });
   ASSERT_NEAR(fieldOf(spike).heightMm(12, 12), 8, 0.001);
@@ -81,7 +81,7 @@ TEST(DrawnDepth, ANetworkKeepsWithinItsError) {
   }
 }
 
-// Of a wall one sample thick all cells are cut: no triangle reaches its samples.
+// All cells of a wall one sample thick are cut: no triangle reaches its samples.
 TEST(DrawnDepth, WhereANetworkIsCutTheSamplesStay) {
   const Frame wall = relief([](double x, double) { return x == 3 ? 30.0 : 5.0; });
   EXPECT_LT(greatestDifference(drawn(wall, {.error_px = 1}).frame, wall), 0.0013);

@@ -80,8 +80,8 @@ double underHoldDb(const Felt& felt, const Felt& held, double hz) {
   return 20 * std::log10(held.tremorN(hz) / felt.tremorN(hz));
 }
 
-// The row of the requirements: at 30 frames/s no older than 50 ms (p99), and under holding by 30 dB at 16 bits, 20
-// at 8.
+// At 30 frames/s the surface is no older than 50 ms (p99), and its tremor is below that of holding frames by 30 dB at
+// 16 bits and by 20 dB at 8.
 TEST(LiveRun, AtThirtyFramesASecondTheSurfaceIsYoungAndCalm) {
   for (const int bits : {16, 8}) {
     const MemoryFilm film = filmed(30, bits);

@@ -90,7 +90,8 @@ TEST(Oracle, OnTheFacePointsAlongTheNormalFromAnyDepth) {
 
 TEST(Oracle, OnTheFaceIsWhatBruteForceFinds) {
   const auto s = makeTrueSurface("face-nodding");
-  // Below another place of the face: no normal has gone into the way.
+  // The finger's depth is given by the height of another place of the face, so that the path does not use the oracle's
+  // normals.
   const Path path = [&](double t) {
     const double x = 26 * std::sin(4.3 * t), y = 24 * std::sin(2.9 * t + 1);
     return glm::dvec3(x, y, s->height(x + 3, y - 2, t) + 10 - std::min(t / 0.1, 1.0) * 13);

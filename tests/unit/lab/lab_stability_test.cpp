@@ -107,7 +107,7 @@ TEST(Scenarios, AreAllPassedByRelievo) {
   }
 }
 
-// What is scaled and shifted as a whole is averaged over five frames; the triangles of the literature feel three times
+// relievo averages flicker of whole frames over five frames; methods on triangles of one frame feel about three times
 // as much.
 TEST(Scenarios, FlickerIsFeltThroughRelievoAThirdAsMuchAsThroughThePapersMethod) {
   const Verdict own = judge("flicker", challengerNamed("relievo"));
@@ -140,12 +140,12 @@ TEST(Scenarios, ASurfaceWithFrictionIsPassedButForWhatFrictionIs) {
                                                              {"camera-move", aside + 6}});
 }
 
-// A surface of half the force is gone in half the time into a hole, at 50 N/s.
+// With half the force, a hole takes the force away in half the time, at 50 N/s.
 TEST(Scenarios, ASofterSurfaceIsPassedButForHoles) {
   expectOf(challengerMadeOf(*parseMaterial("stiffness=.25")), {{"dropout", 12}});
 }
 
-// 11 mm of 1 N/mm are more than the 10 N that there are.
+// 11 mm at 1 N/mm need more than the 10 N that are allowed.
 TEST(Scenarios, AStifferSurfaceIsPassedButForTheForce) {
   const Challenger stiffer = challengerMadeOf(*parseMaterial("stiffness=1"));
   expectOf(stiffer, {{"fast-hip", 95}});

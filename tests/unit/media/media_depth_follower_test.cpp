@@ -59,7 +59,7 @@ std::vector<double> every(double period_ms, int count, double start_ms = 0) {
 
 using Times = std::vector<double>;
 
-// A camera has yet to take the next one: waiting for it would cost a period.
+// The camera has not taken the next depth picture yet: waiting for it would cost a period.
 TEST(DepthFollower, ForAPictureOfTheColoursOwnTimeItDoesNotLookAtTheNext) {
   Track track(every(40, 20));
   track.follower.setLive(true);

@@ -148,7 +148,7 @@ TEST(OddCodes, GrayOfMoreThanEightBitsIsDepth) {
   EXPECT_EQ(openFilm({.url = folder / "a.png"}).info.packing, Packing::DepthAlone);
 }
 
-// Cameras of 12 bits: a kind's hole of 65535 is none of their codes, and no fault.
+// Cameras of 12 bits: their codes cannot be the kind's hole of 65535, and that is no error.
 TEST(OddCodes, AKindOfSixteenBitsMayBeSaidOfFewer) {
   for (const auto& [format, codes] : {std::pair{"gray12le", 1.0}, {"gray10le", 4.0}}) {
     TemporaryFolder folder;
@@ -158,7 +158,7 @@ TEST(OddCodes, AKindOfSixteenBitsMayBeSaidOfFewer) {
     expectScene(film, 1 / codes, {.mm = 0.51});
     EXPECT_EQ(film.info.calibration.calibration.invalid, CodeSet(0));
     const OpenedFilm raw = openFilm({.url = folder / "a.mkv", .as = findKind("kinect-raw")});
-    const char* const held = codes == 1 ? "0+1085-4095" : "0";  // of 0+1085-65535
+    const char* const held = codes == 1 ? "0+1085-4095" : "0";  // what 12 or 10 bits can hold of 0+1085-65535
     EXPECT_EQ(raw.info.calibration.calibration.invalid.text(), held);
   }
 }

@@ -109,7 +109,7 @@ TEST(PackedCodes, TilesOfTerrainAreHeights) {
   }
 }
 
-// Android's DEPTH16: the confidence stands in the upper three bits.
+// Android's DEPTH16: the confidence is in the upper three bits.
 TEST(PackedCodes, ConfidenceAboveTheDistanceIsLeftOut) {
   for (const bool with : {true, false}) {
     TemporaryFolder folder;
@@ -168,7 +168,7 @@ TEST(PackedCodes, AWhiteMarginBetweenTheHalvesBelongsToNeither) {
   }
 }
 
-// Red to yellow to green is one byte at its top while the other runs; blue is 0 in all of it.
+// From red over yellow to green, one byte has its highest value while another one changes; blue is 0 throughout.
 TEST(PackedCodes, HuesAndPhotosAreNone) {
   const auto orderOf = [](const ClipTrack& track) {
     TemporaryFolder folder;

@@ -118,11 +118,11 @@ TEST(Recordings, TheDepthOfAPaleSceneIsFoundByTheBreakInTheMiddle) {
   EXPECT_FALSE(open({.url = folder / "film.mp4"}).info.has_depth);
 }
 
-// Of a picture without a hole nothing tells whether high codes are near: both readings have their word.
+// Without a hole, nothing in a picture shows whether high codes are near. The message names both possibilities.
 TEST(Recordings, AFilmOfOneKeyFrameIsLookedAtFartherOnToo) {
   TemporaryFolder folder;
   ClipTrack depth{.width = kSceneCols, .height = kSceneRows, .frames = 48, .gop = 1000};
-  // A wall that is seen by and by.
+  // A wall that comes into view little by little.
   depth.sample = [](int, int c, int r, int frame) {
     if (c < 4) return 0U;
     return c > 100 && frame > 30 ? 3600U + static_cast<unsigned>(r) : 1000 + static_cast<unsigned>(c + r);
@@ -146,7 +146,7 @@ TEST(Recordings, HeightsAreOfferedWhereNothingTellsThemFromDistances) {
   const HeightField field = HeightField::make(near.depth, near.info.calibration.calibration, kVolume).value();
   EXPECT_GT(field.heightMm(80, 54), field.heightMm(150, 5) + 10);
   EXPECT_THAT(near.info.reading.doubts, IsEmpty());
-  // A hole is what only a sensor has.
+  // Only a sensor leaves holes.
   makeClip(folder / "%04d.png", {coded([](double mm, int, int) { return rounded(mm); })});
   EXPECT_THAT(open({.url = folder / "%04d.png"}).info.reading.offers, ElementsAre(HasSubstr("unit=MM")));
   std::filesystem::create_directories(folder / "elevation");

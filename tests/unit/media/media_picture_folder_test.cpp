@@ -161,7 +161,7 @@ void slope(const std::filesystem::path& path, int near, int far) {
 TEST_F(PictureFolder, NearAndFarHoldForTheWholeRecording) {
   for (int k = 10; k < 40; ++k) {
     picture("f/rgb/" + std::to_string(k) + ".ppm", k);
-    // As a hand and the room behind come in.
+    // First a hand comes into view, then the far end of the room.
     slope(folder_ / ("f/depth/" + std::to_string(k) + ".pgm"), k < 20 ? 570 : 220, k < 25 ? 2130 : 3640);
   }
   PairReader reader(kReal);
@@ -222,7 +222,7 @@ TEST_F(PictureFolder, APictureBeyondThoseLookedAtIsToldOnce) {
   const std::size_t option = said.find("--calibration near=");
   ASSERT_NE(option, std::string::npos) << said;
   EXPECT_EQ(said.find("--calibration", option + 1), std::string::npos) << said;
-  // What it says to type takes the picture in.
+  // With the option that the message suggests, the strange picture is within near and far.
   int near = 0, far = 0;
   ASSERT_EQ(std::sscanf(said.c_str() + option, "--calibration near=%d,far=%d", &near, &far), 2);
   EXPECT_LE(near, 570);
@@ -234,7 +234,7 @@ TEST_F(PictureFolder, NyusRawDepthIsReadAsItWasMeant) {
   picture("n/r-1294886362.665769-31.ppm", 9), picture("n/r-1294886363.665769-32.ppm", 9);
   picture("n/d-1294886362.660000-41.pgm", 0x2c01), picture("n/d-1294886363.660000-42.pgm", 0xff07);  // bytes swapped
   EXPECT_EQ(story({.url = folder_ / "n"}), "0 9:300, 1000 9:2047");
-  // Their bytes are in order by then: to say what they are changes nothing.
+  // The bytes have been put in order by then, so that naming the kind changes nothing.
   EXPECT_EQ(story({.url = folder_ / "n", .as = findKind("nyu-raw")}), "0 9:300, 1000 9:2047");
   const auto last = [&](const std::string& url) {
     PairReader reader(kReal);

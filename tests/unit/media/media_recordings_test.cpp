@@ -103,7 +103,7 @@ TEST(Recordings, PicturesOfSixteenBitsAreReadAsTheyCome) {
     const Seen seen = open({.url = folder / "color.mkv", .depth_url = path});
     expectSame(seen, truth(each.scale), each.step_mm, each.depth);
     EXPECT_THAT(seen.info.reading.doubts, IsEmpty()) << each.depth;
-    // Alone, and stated, it is the same.
+    // The depth alone, and with its kind stated, is read in the same way.
     const Seen alone = open({.url = path});
     expectSame(alone, truth(each.scale), each.step_mm, each.depth);
     EXPECT_EQ(alone.info.packing, Packing::DepthAlone) << each.depth;
@@ -134,7 +134,7 @@ TEST(Recordings, AFileBesideThePicturesGivesTheirScale) {
   const Seen seen = open({.url = folder / "color.mkv", .depth_url = folder / "000001/depth/%06d.png"});
   expectSame(seen, truth(), 0.1, "BOP");
   EXPECT_THAT(seen.info.reading.why, Contains(HasSubstr("scene_camera.json")));
-  // Damaged, it tells nothing, and the codes are read as they look.
+  // A damaged file is ignored, and the codes are read by their looks.
   std::ofstream(folder / "000001/scene_camera.json") << R"({"0": {"cam_K": [1, 0, 0], "depth_sc)";
   expectSame(open({.url = folder / "color.mkv", .depth_url = folder / "000001/depth/%06d.png"}), truth(2), 0.2, "none");
 }
@@ -207,12 +207,12 @@ TEST(Recordings, EveryPartSaysWhoSaidIt) {
                            "near=200: command line, said", "bits=16: stream signalling, said"}) {
     EXPECT_THAT(lines, Contains(line));
   }
-  // Without a word the picture shows it.
+  // Without --as, the first picture shows the unit.
   const Seen shown = open({.url = folder / "color.mkv", .depth_url = folder / "%04d.png"});
   EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
 }
 
-// What an author assumed is not said by the film's tags.
+// The tags of a film do not state what its author only assumed.
 TEST(Recordings, AGuessStaysOneInTheFilmsTags) {
   TemporaryFolder folder;
   makeClip(folder / "color.mkv", {photo()});

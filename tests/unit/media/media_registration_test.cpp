@@ -108,8 +108,8 @@ TEST(Registration, DistancesKeepTheirUnitAndThePictureItsTime) {
   EXPECT_EQ(there.duration, std::chrono::milliseconds(40));
 }
 
-// What lies behind the colour camera, or in its plane, is not in its picture; nor is what its codes cannot tell, nor a
-// hole, wherever the camera stands.
+// What lies behind the colour camera, or in its plane, is not in its picture. Nor are distances that the codes cannot
+// hold, nor holes, wherever the camera is.
 TEST(Registration, WhatTheOtherCameraCannotSeeOrTellIsAHole) {
   const auto seen = [](int code, double forward_mm) {
     const Frame depth = depthOf(16, 8, [code](int, int) { return code; });

@@ -213,7 +213,7 @@ TEST(Views, AJpsHoldsThemInOnePicture) {
   EXPECT_NEAR(test::sampleAt(crossed.pair.color, 0, 20, 20), kBright, 4);
   EXPECT_NEAR(test::sampleAt(crossed.pair.right, 0, 20, 20), kDark, 4);
   EXPECT_EQ(crossed.pair.color.sample_aspect, 2);
-  // Without a header the ending says as much.
+  // Without a header, the file's ending .jps is enough.
   write(folder / "d.jps", jpegOf(beside));
   const test::OpenedFilm bare = test::openFilm({.url = folder / "d.jps"});
   EXPECT_EQ(bare.info.packing, Packing::StereoSideBySide);

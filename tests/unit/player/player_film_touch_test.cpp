@@ -166,7 +166,7 @@ TEST_F(FilmTouchTest, DepthThatIsMissingIsNotedOnceUntilItIsBack) {
     touch_->feed(missing, standing(there));
   }
   EXPECT_EQ(noted("no depth at this time"), 2U);
-  missing.expected = false;  // the film rushes by
+  missing.expected = false;  // as in fast forward
   touch_->feed(there, standing(there));
   touch_->feed(missing, standing(there));
   EXPECT_EQ(noted("no depth at this time"), 2U);

@@ -167,7 +167,7 @@ TEST(KeyTable, NamesTheKeyOfACommandAsTheViewerReadsIt) {
   EXPECT_EQ(table.keyFor(PlayerVerb::Screenshot, State::Playing, KeyBoard::Remote), "");
 }
 
-// In the words of what the viewer has in hand.
+// Keys are named as they are labelled on the keyboard or remote that the viewer uses.
 TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   const KeyTable table = KeyTable::usual();
   const auto keyOf = [&](State state, KeyBoard held, const std::string& meaning) {

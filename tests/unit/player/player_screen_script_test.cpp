@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long texts are broken into lines that fit, and the bar stands where it should.
+// Long texts are broken into lines that fit, and the bar is where it should be.
 #include "app/player/screen/screen_script.h"
 
 #include <gmock/gmock.h>

@@ -49,8 +49,8 @@ TEST(CutCells, AJumpThatIsSmearedDownwardHasNothingBetweenItsSidesEither) {
   }
 }
 
-// Depth as a hue over YUV: of the second picture the chroma alone is another one. Magenta (255, 0, 255) and a blue
-// (0, 130, 255) have the same luma.
+// Depth as a hue over YUV: only the chroma of the second picture differs. Magenta (255, 0, 255) and a blue (0, 130,
+// 255) have the same luma.
 TEST(HeightLattice, AHueThatChangesInItsChromaAloneIsReadAgain) {
   std::vector<std::uint8_t> luma(16 * 8, 105), u(16 * 8, 212), v(16 * 8, 235);
   Frame frame;

@@ -98,7 +98,7 @@ TEST(WordsPlace, IsLiftedInTimeByWhatComesFromTheSide) {
   EXPECT_LT(last, highest - 10) << "it sinks again";
 }
 
-// A film whose next pictures are known. `fill` tells the codes of a picture, 0 to 255 for 0 to 40 mm.
+// A film whose next pictures are known. `fill` gives the codes of a picture, 0 to 255 for 0 to 40 mm.
 class KnownAhead : public testing::Test {
  protected:
   static constexpr int kCols = 160, kRows = 90;
@@ -180,7 +180,8 @@ TEST_F(KnownAhead, WhatDartsFromTheBorderIsMetWithoutAJump) {
   EXPECT_EQ(moved.lifted, 0u);
 }
 
-// What rises under the words all at once, by no more than the pictures ahead leave steps for.
+// Something rises under the words from one picture to the next. The pictures that are known ahead leave enough steps to
+// lift the words.
 TEST_F(KnownAhead, ARiseOfNineStepsIsMetInTime) {
   const std::uint8_t low = 160, high = 222;
   ASSERT_NEAR(disparityOf(40.0 * high / 255) - disparityOf(40.0 * low / 255), 8.5, 0.4);
@@ -202,7 +203,7 @@ TEST_F(KnownAhead, AHugeRiseIsMetInEqualSteps) {
   EXPECT_NEAR(play(40, 0, wall).most_up, rise - kInFrontPx, 1e-3) << "nothing known";
 }
 
-// Behind a cut nothing has to be met: the words may stand anywhere there.
+// What comes after a cut does not count: the words are placed anew there.
 TEST_F(KnownAhead, WhatComesBehindACutDoesNotCount) {
   WordsPlace words;
   ReliefAhead coming{.more = false};

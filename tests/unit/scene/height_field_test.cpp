@@ -201,7 +201,8 @@ TEST(HeightField, HueOverYuvIsReadInItsRangeAndInTenBitsOfSixteen) {
     EXPECT_NEAR(hueHeightMm({150, 44, 21}, ColorRange::Full, upper_ten, hue), 40 * 2 / 3.0, 0.2) << upper_ten;
     EXPECT_NEAR(hueHeightMm({145, 54, 34}, ColorRange::Limited, upper_ten, hue), 40 * 2 / 3.0, 0.2) << upper_ten;
   }
-  // As dark as its brightest component of 60, and as pale as half of it: no reading, though its hue is green.
+  // Too dark (the brightest component is 60), and too pale (the palest component is half of it): no reading, although
+  // the hue is green.
   EXPECT_TRUE(std::isnan(hueHeightMm({35, 108, 103}, ColorRange::Full, false, hue))) << "(0, 60, 0)";
   EXPECT_TRUE(std::isnan(hueHeightMm({202, 86, 74}, ColorRange::Full, false, hue))) << "(127, 255, 128)";
 }

@@ -26,8 +26,8 @@ double codeOf(const Frame& depth, int c, int r) {
   return codeAt(depth.components[0], depth.planes[0].data + r * depth.planes[0].stride_bytes + std::ptrdiff_t{2} * c);
 }
 
-// Codes are linear in disparity over a range that the film does not tell: the line through all of them that fits best
-// gives pixels of disparity.
+// Codes are linear in disparity over a range that the film does not state. The line that fits all of them best converts
+// them to pixels of disparity.
 struct Fit {
   double scale = 0, offset = 0;
   std::vector<double> errors;  // pixels
@@ -165,7 +165,7 @@ TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
   EXPECT_FALSE(in_order.areSwapped());
 }
 
-// A shot that begins with nothing before its wall: what comes later tells.
+// A shot that begins with nothing in front of its wall shows the order of its views only when something comes.
 TEST(QuickDepth, ViewsInTheWrongOrderAreToldByALaterPictureOfTheShot) {
   const TwoViews scene = boards(kCols, kRows);
   TwoViews wall = scene;

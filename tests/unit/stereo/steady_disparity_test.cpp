@@ -123,7 +123,7 @@ TEST(SteadyDisparity, AMovingEdgeIsNotSmeared) {
   }
 }
 
-// A part of the picture that the matcher takes for another surface in some pictures, where the views say otherwise.
+// A part of the picture for which the matcher finds another surface in some pictures, although the views contradict it.
 TEST(SteadyDisparity, AFlickerBetweenTwoSurfacesIsHeld) {
   Steady steady;
   const TwoViews scene = wall();
@@ -134,7 +134,8 @@ TEST(SteadyDisparity, AFlickerBetweenTwoSurfacesIsHeld) {
   }
 }
 
-// The same in the left view, elsewhere in the right one: as both views show it, at once.
+// The surface really moves: the left view stays as it is, and the right view agrees with the new disparity. It is taken
+// at once.
 TEST(SteadyDisparity, AnotherSurfaceThatBothViewsShowIsTaken) {
   Steady steady;
   TwoViews scene = wall();

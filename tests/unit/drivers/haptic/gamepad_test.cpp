@@ -142,7 +142,7 @@ TEST_F(GamepadTest, AWheelTurnsTheFingerAndItsPedalPresses) {
   EXPECT_NEAR(after(1000).position_mm.z, -15, 1e-2);
 }
 
-// hid-lg4ff tells 0 until the first report.
+// Until the first report, hid-lg4ff reports 0 for the pedal.
 TEST_F(GamepadTest, AWheelsPedalIsKnownByTheFirstPositionThatItTells) {
   PadFacts facts = test::wheel();
   for (const unsigned code : {ABS_Y, ABS_Z, ABS_RZ}) facts.ranges[code].value = 0;
@@ -260,7 +260,8 @@ TEST_F(GamepadTest, WhatItIsNotIsSaidOnceInOneLine) {
   EXPECT_NE(said.find("not a 1 kHz three-axis device"), std::string::npos) << said;
 }
 
-// The whole chain on a slope: the trigger, pulled all the way, ends at rest, with what it and the surface push.
+// The whole task on a slope: with the trigger pulled all the way, the finger comes to rest where the trigger's force
+// and the surface's are equal.
 TEST_F(GamepadTest, OnTheHapticTaskItComesToRestOnASlope) {
   run(test::xboxPad());
   const DisplayVolume volume{160, 107, 40};

@@ -99,7 +99,7 @@ TEST(Inverse3Snapshot, WhatIsNoJsonObjectIsNoMessage) {
   }
 }
 
-// Every text that the documented messages become when a byte is lost or changed.
+// Every text that results from the documented messages when a byte is lost or changed.
 TEST(Inverse3Snapshot, AgreesWithAnotherReaderOnDamagedMessages) {
   int good = 0;
   for (const std::string& text : {std::string(kOf34), std::string(kOf35)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Levels of effects, held against what the kernel's documentation says that a device makes of them.
+// Levels of effects, compared with what a device does with them according to the kernel's documentation.
 #include "drivers/gamepad/pad_effects.h"
 
 #include <gtest/gtest.h>
@@ -107,8 +107,8 @@ TEST(PadEffects, AWheelsSpringAndConstantForceAddUpToTheForceWhereverItStands) {
   }
 }
 
-// Between two uploads the spring goes on: pushed in by a tenth of the half way, it pushes by that much more; beyond its
-// centre it does not pull back.
+// Between two uploads the spring acts by itself: a finger that is a tenth of the range further in gets that much more
+// force; beyond the spring's centre it is not pulled back.
 TEST(PadEffects, TheSpringIsAWallThatDoesNotStick) {
   PadEffects effects(kWheel);
   const PadLevels right = held(effects, {1, 0, 0}, {0.1, 0});

@@ -84,12 +84,12 @@ TEST(DepthReading, SensorsCodesAreDistances) {
   expectTrue(inOrder(sun, SampleOrder::RotatedLeft3).value(), 1.01, "mm, rotated left by three bits");
 }
 
-// The ball is told apart as a person.
+// The lower bits, which number the people in view, mark the ball.
 TEST(DepthReading, AKinectsPlayersStandBelowItsDistances) {
   const Frame players = picture(0, [](double mm) { return std::floor(mm) * 8 + (mm < 1400 ? 2 : 0); });
   ASSERT_EQ(sensorKind(players, CodeCount(players)), findKind("kinect-players"));
   expectTrue(inOrder(players, SampleOrder::Upper13).value(), 1.01, "mm above a player's number");
-  // Of SUN's, beyond 8.19 m the upper bits come round.
+  // In SUN RGB-D's coding, the upper bits wrap around beyond 8.19 m.
   const Frame far = picture(0, [](double mm) {
     const auto code = static_cast<std::uint32_t>(5 * mm);
     return static_cast<double>((code << 3 | code >> 13) & 0xffff);
@@ -116,7 +116,7 @@ TEST(DepthReading, DistancesOfAnotherUnitHaveTheSameRelief) {
   EXPECT_GT(field.heightMm(kCols / 2, kRows / 2), field.heightMm(kCols - 2, 2));
 }
 
-// Half a metre from the camera begins what reaches to 16 m; at 5000 codes a metre it were .1 m.
+// A scene from 0.5 to 16 m in mm. At 5000 codes a metre it would begin at 0.1 m.
 TEST(DepthReading, WhatNoSensorSeesSoNearIsInMillimetres) {
   const auto kind = [](std::uint32_t nearest) {
     const Frame f = makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth coded as brightness whose holes are black: what stays known when the near end alone was said.
+// Depth coded as brightness, with black holes: the holes are still found if the user states only which end is near.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -131,7 +131,7 @@ TEST(ShelfView, EverySelectedFilmIsOnTheScreen) {
   }
 }
 
-// A warning stands below the rows, and the selected film is still among them.
+// A warning is shown below the rows, and the selected film is still among them.
 TEST(ShelfView, AWarningHidesNoRow) {
   FilmShelf shelf;
   shelf.put(sections("f2", 40));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mounts of removable media: how the kernel tells them, and that they are noticed as they come and go.
+// Mounts of removable media: how the kernel lists them, and that they are noticed as they come and go.
 #include "app/player/browse/sticks.h"
 
 #include <gmock/gmock.h>

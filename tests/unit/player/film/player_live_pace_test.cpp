@@ -73,8 +73,8 @@ TEST(LivePace, ASourceThatSendsAheadOfItsTimeIsNoCamera) {
   EXPECT_FALSE(camera.pace.choose()) << "once and for all";
 }
 
-// Pictures that are 90 ms old when they are seen: touch of 46 would be 44 before them, 15 is the most. One hitch is
-// none.
+// Pictures are 90 ms old when they are seen. Touch that is 46 ms old would be 44 ms ahead of them, but at most 15 are
+// allowed. A single late picture changes nothing.
 TEST(LivePace, TouchIsNotFurtherAheadOfThePicturesThanPeopleNotice) {
   Camera camera;
   camera.send(60, milliseconds(6));

@@ -11,7 +11,7 @@ namespace {
 using testing::Each;
 using testing::ElementsAre;
 
-// A thousand frames a second of one channel, so that a frame is a millisecond; each tells its own place.
+// A thousand frames a second of one channel, so that a frame is a millisecond; the value of each is its own position.
 class SoundWindowTest : public testing::Test {
  protected:
   static AudioChunk piece(double from_s, int frames, int first) {
