@@ -103,7 +103,8 @@ int runTraceCommand(const TraceOptions& options) {
 
 CLI::App* addMeasurement(CLI::App& app, const char* name, const char* about, MeasureOptions& options) {
   CLI::App* const command = app.add_subcommand(name, about);
-  command->add_flag("--quick", options.quick, "Fewer scenes, rounds and seconds: under a minute");
+  command->add_flag("--quick", options.quick,
+                    "Fewer scenes, rounds and seconds: a measurement takes under a minute, a report a few minutes");
   command->add_option("--out", options.out, "Output folder for CSV and SVG files; created if missing")
       ->required()
       ->type_name("DIR");
@@ -150,7 +151,7 @@ std::string chartFiles(const Measurement& measurement) {
 // system and faults it in again page by page, which takes a third of a measurement's time.
 void keepFreedMemory() {
   ::mallopt(M_ARENA_MAX, 1);
-  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that it takes
+  ::mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest value that mallopt accepts
   ::mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   ::mallopt(M_TOP_PAD, 64 << 20);
 }

@@ -108,7 +108,7 @@ Frame PairReader::Impl::materialAt(MediaTime time) {
   if (found) return std::move(*found);
   if (found.error().code == ErrorCode::Cancelled || isLoss(found.error())) return {};
   material.giveUp();
-  log(LogLevel::Warning, "media", "%s: no material of places from here on: %s", options.url.c_str(),
+  log(LogLevel::Warning, "media", "%s: the material track cannot be read from here on: %s", options.url.c_str(),
       found.error().message);
   return {};
 }

@@ -213,7 +213,8 @@ std::string filmText(const PlayReport& r) {
   if (r.frames_shown == 0) return print("film    no picture was shown in %.2f s\n", r.wall_s);
   const double first_ms = r.first_frame_ms.value_or(0);
   constexpr double kNoTime = 0.005;  // a still picture, or one that was paused all the time
-  if (r.media_s < kNoTime) return print("film    one picture stood for %.2f s, after %.0f ms\n", r.wall_s, first_ms);
+  if (r.media_s < kNoTime)
+    return print("film    one picture was shown for %.2f s, after %.0f ms\n", r.wall_s, first_ms);
   const bool chosen =
       std::ranges::find(r.states, PlayerState::Browsing) != r.states.end();  // after a while in the list
   if (chosen) return print("film    %.2f s shown in %.2f s\n", r.media_s, r.wall_s);

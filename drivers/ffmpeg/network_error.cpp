@@ -74,7 +74,7 @@ Error networkError(int code, std::string_view words) noexcept {
   }
   if (has(words, "TLS") || has(words, "tls") || has(words, "SSL")) {
     return {ErrorCode::Io, 0,
-            "no secure connection: the server does not speak TLS, or not this one; check https and port"};
+            "no secure connection: the server does not speak TLS, or not this version; check https and port"};
   }
   if (has(words, "ort missing") || has(words, "nvalid port") || code == AVERROR(EINVAL)) {
     return {ErrorCode::Unsupported, 0, "not a whole address; write it as PROTOCOL://HOST:PORT/PATH"};

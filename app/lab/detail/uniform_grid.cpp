@@ -98,7 +98,7 @@ Result<UniformGrid> UniformGrid::create() {
 Result<void> UniformGrid::setFrame(const Frame& color, const Frame& depth, const DisplayVolume& volume) {
   const Component& code = depth.components[0];
   if (code.bits != 8 || code.step_bytes != 1) {
-    return fail(ErrorCode::Unsupported, "the uniform grid draws a plane of 8-bit depth alone");
+    return fail(ErrorCode::Unsupported, "the uniform grid draws only depth of 8 bits in a plane of its own");
   }
   if (auto drawable = ColorPicture::check(color); !drawable) return drawable;
   if (auto set = picture_.setFrame(color); !set) return set;

@@ -152,8 +152,9 @@ ChartWords wordsOf(const std::vector<Figures>& all) {
   };
   return {
       "Edges: what smoothing costs on a step of 15 mm, still and moving",
-      print("How far from the edge the felt surface is (in the mean over the places), and a finger that is swept "
-            "off when it has lost half of its force (at worst). relievo as it plans: %s; %s; %s; %s. Widths alone: "
+      print("Two distances from the edge: that of the felt surface (mean of the places), and that at which a finger "
+            "that is swept off has lost half of its force (worst place). relievo as it plans: %s; %s; %s; %s. Widths "
+            "alone: "
             "0.28 mm, %s; 0.72 mm, %s. Two levels, 0.28 + 0.72 mm: %s; they go with an edge that moves from frame to "
             "frame. Smoothing every frame rounds the edge: god-object-smoothed %s; the raw god-object keeps it, %s, "
             "until noise traps it (%s).",

@@ -128,7 +128,7 @@ TEST(Report, SaysSoWhereNoTimeOfAFilmWasShown) {
   chosen.states.push_back(PlayerState::Browsing);
   EXPECT_THAT(toText(chosen), HasSubstr("film    2.00 s shown in 2.50 s\n"));
   r.media_s = 0;
-  EXPECT_THAT(toText(r), HasSubstr("film    one picture stood for 2.50 s, after 123 ms"));
+  EXPECT_THAT(toText(r), HasSubstr("film    one picture was shown for 2.50 s, after 123 ms"));
   r.frames_shown = 0;
   EXPECT_THAT(toText(r), HasSubstr("film    no picture was shown in 2.50 s"));
 }
