@@ -16,7 +16,8 @@ constexpr int kSteps = 10;
 constexpr double kStill = 0.005;  // samples: a step that changes nothing
 constexpr double kFarthest = 2;   // samples between the blocks' motion and the fit
 constexpr double kUnlike = 8;     // codes, on average: above this it is another object
-constexpr double kTextured = 4;   // squared codes a sample: the weaker direction's slope
+constexpr double kTextured =
+    4;  // squared codes a sample: the least slope, in the weaker direction, of a point that can be tracked
 
 // Brightness between the samples, within the picture.
 double between(const GrayPicture& p, double x, double y) {

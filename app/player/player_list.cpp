@@ -81,7 +81,8 @@ void Player::followFault(MonotonicTime now) {
   const bool named = programme_.named() && !config_.stays && !returnsToBrowser();
   if (named && !missed_) missed_ = failure_;
   if (!other && named) return;
-  if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser()) return;  // it ends with that failure
+  if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser())
+    return;  // the player ends with that failure
   const std::string what = failure_->thing + ": " + failure_->error.message;
   log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
   if (other) {

@@ -127,7 +127,7 @@ void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block
 bool HeightField::readCodes(int r, std::span<std::uint16_t> codes) const noexcept {
   if (layout_ >= Layout::Hue) return false;
   const std::uint8_t* sample = data_ + r * stride_bytes_;
-  if (layout_ == Layout::Bytes && step_bytes_ == 1) {  // nearly always: the compiler makes it several at a time
+  if (layout_ == Layout::Bytes && step_bytes_ == 1) {  // the usual case, which the compiler vectorises
     for (int c = 0; c < cols_; ++c) codes[c] = static_cast<std::uint16_t>((sample[c] >> shift_) & mask_);
     return true;
   }

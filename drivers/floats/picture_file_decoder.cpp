@@ -92,7 +92,7 @@ class PictureFileDecoder final : public VideoDecoder {
     bool gray = true;
     std::size_t component = 0;  // of gray
     float stretch = 1;
-    bool plain = false;  // the codes are all there is
+    bool plain = false;  // whole numbers: the codes themselves, not values of a float
     FloatCodes codes = FloatCodes::identity();
     bool said_beyond = false;
   };

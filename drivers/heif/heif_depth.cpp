@@ -19,7 +19,7 @@ using namespace heif;
 using Tags = std::map<std::string, std::string>;
 
 constexpr double kMmPerMetre = 1000;
-constexpr double kMostRatio = 64;  // of far to near: a smaller disparity is felt no more
+constexpr double kMostRatio = 64;  // of far to near; smaller disparities are cut to it
 
 // Disparities in 1/m, or distances in m, of the lowest and the highest code.
 struct Range {

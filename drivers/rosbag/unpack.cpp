@@ -33,7 +33,7 @@ std::vector<std::uint8_t> unpack(const Range& packed, std::size_t plain_bytes, D
     const std::size_t unread = input.size();
     more = decode(input, room);
     plain.resize(plain.size() - room.size());
-    if (input.size() == unread && plain.size() == before) break;  // it is stuck
+    if (input.size() == unread && plain.size() == before) break;  // no progress: the data is damaged
   }
   return plain;
 }

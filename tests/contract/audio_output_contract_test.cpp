@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every sound output under the contract; what is ALSA's own.
+// Every sound output under the contract, and what is special to ALSA.
 #include <gtest/gtest.h>
 
 #include <vector>

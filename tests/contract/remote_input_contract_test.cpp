@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every remote control under the contract; what is the terminal's and the window's own.
+// Every remote control under the contract, and what is special to the terminal and the window.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>

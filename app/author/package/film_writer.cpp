@@ -21,7 +21,7 @@ extern "C" {
 namespace relievo {
 namespace {
 
-constexpr std::int64_t kLongestHeldUs = 500'000;  // of a live film: pictures that wait for a subtitle
+constexpr std::int64_t kLongestHeldUs = 500'000;  // for so long pictures of a live film wait for a subtitle
 
 void setTag(AVDictionary** tags, const std::string& key, const std::string& value) {
   av_dict_set(tags, key.c_str(), value.c_str(), 0);

@@ -72,7 +72,8 @@ double PlaceSpring::share(double depth_mm, double stiffness_n_per_mm) RELIEVO_RT
     length_mm_ = std::min(depth_mm, most_n_ / k);
     owned_mj_ = 0.5 * k * length_mm_ * length_mm_;
   } else {
-    // What the finger, or the surface, puts in on its way, by the trapezoid rule: `own` without this tick's force.
+    // The energy that the motion of the finger or of the surface puts into the spring, by the trapezoid rule. `own`
+    // leaves out this tick's force.
     const double way = depth_mm - depth_mm_;
     const double own = std::max(owned_mj_ + 0.5 * stiffness_ * length_mm_ * way, 0.0);
     const double whole = own + 0.5 * k * depth_mm * way, stored = 0.5 * k * depth_mm * depth_mm;

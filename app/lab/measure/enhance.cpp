@@ -81,7 +81,8 @@ std::vector<Frame> sensedFilm(const TrueSurface& surface, const SensorModel& sen
   return pictures;
 }
 
-// By how many samples the edge is off in a row, by those that are on its high side among the ones within kAround of it.
+// How many samples the edge is off in a row: the samples within kAround of it that are higher than the edge's middle
+// are counted, and compared with the truth.
 int edgeOff(const HeightField& field, const StepWall& wall, int row) {
   constexpr int kAround = 12;
   const GridMapping& grid = field.grid();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Short linear pieces on a sheet, exact pieces between events on a step.
+// Follows the finger in short straight pieces on a sheet, and exactly from event to event on a step.
 #include "app/lab/truth/oracle.h"
 
 #include <algorithm>

@@ -20,7 +20,7 @@ glm::dvec2 StepSection::nearest(const glm::dvec2& point) const {
 glm::dvec2 StepSection::slide(const glm::dvec2& proxy, const glm::dvec2& finger) const {
   const bool on_high_floor = proxy.y >= high_mm;
   if (on_high_floor && finger.x <= 0) return {finger.x, high_mm};
-  // Wall and low floor hold one minimum between them. A finger that has passed below the edge is inside only below the
+  // Wall and low floor have one minimum between them. A finger that has passed below the edge is inside only below the
   // low floor: there the proxy falls from the edge all the way.
   if (finger.x < 0) return {0.0, std::clamp(finger.y, low_mm, high_mm)};
   return {finger.x, low_mm};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forward, back, past what cannot be played, and round again.
+// Moves through the list of films: forward, back, past films that cannot be played, and from the end to the beginning.
 #include "app/player/film/programme.h"
 
 #include <algorithm>

@@ -42,7 +42,7 @@ class Line {
   bool first_ = true;
 };
 
-// Divided, so that a whole number of microseconds reads as one.
+// A division gives whole microseconds exactly; a multiplication by 1e-9 would not.
 double secondsOf(Duration d) noexcept {
   return static_cast<double>(d.count()) / 1e9;
 }

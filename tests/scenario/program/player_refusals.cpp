@@ -90,7 +90,7 @@ TEST_F(PlayerProgram, WrongUseIsCodeTwoAndOneLine) {
   expectNothingLeft({});
 }
 
-// Some words can be judged only beside the film.
+// Whether a calibration is valid may depend on the film.
 TEST_F(PlayerProgram, ACalibrationThatDoesNotFitTheFilmIsWrongUse) {
   ClipTrack bytes = depth(3);
   bytes.pix_fmt = "gray";

@@ -173,7 +173,7 @@ const Changes& changes() {
 TEST(AuthorSampleFilm, StaysWithinTheVolume) {
   EXPECT_GE(changes().lowest, 1);
   EXPECT_LE(changes().highest, 250);
-  EXPECT_GT(changes().highest - changes().lowest, 200);  // and makes use of it
+  EXPECT_GT(changes().highest - changes().lowest, 200);  // uses most of the range
 }
 
 TEST(AuthorSampleFilm, HasOneCutAndOneOnly) {

@@ -139,8 +139,8 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_THAT(readAll(reader), IsEmpty());
 }
 
-// The words that are there after a seek to `target_s` in film.mkv with the lines of a.srt, as the ffmpeg program joins
-// them with every picture a key frame, so that no line is read with the pictures of the seek.
+// The subtitle lines after a seek to `target_s` in a film that the ffmpeg program makes of film.mkv, with the options
+// `pictures`, and a.srt. Every picture is a key frame, so that no line is read along with the pictures of the seek.
 std::vector<std::string> FilmWords::wordsAfterASeek(double target_s, const std::string& pictures) {
   const std::string folder = folder_ / "";
   const std::string command =

@@ -172,7 +172,7 @@ TEST_F(ReliefMakerTest, AJumpForgetsWhatWasOfferedAndMade) {
   maker_->jump();
   EXPECT_TRUE(maker_->idle());
   EXPECT_EQ(maker_->take(), std::nullopt);
-  maker_->offer(pairAt(3));  // back
+  maker_->offer(pairAt(3));  // a seek back
   EXPECT_TRUE(maker_->work());
   EXPECT_EQ(maker_->take()->pts, MediaTime(3 * kPeriod));
 }

@@ -190,8 +190,8 @@ TEST(HueOverYuv, BlackIsAHoleWithASharpEdge) {
   }
 }
 
-// Coding moves a hue at the seam from one end of the depth to the other: red alone is no depth, beside a surface it is
-// the surface's end.
+// Coding moves a hue at the seam, red, from one end of the depth to the other. Red alone is a hole; red beside a
+// surface near one end belongs to that end, so that no wall appears.
 TEST(HueOverYuv, TheSeamIsNoWall) {
   const Film film{.color = [](int c, int) { return hue(c < 24 ? 0.02 : (c % 2 == 0 ? 0.0005 : 0.9995)); }};
   const Frame frame = film.frame();

@@ -129,7 +129,7 @@ std::uint32_t yuvOf(const Frame& rgb, int component, int c, int r) {
   return static_cast<std::uint32_t>(std::lround(value));
 }
 
-// As a film of two views at crf 18 brings them.
+// The pair after a film of two views at crf 18 has been written and read.
 FramePair coded(const Frame& left, const Frame& right, const std::string& path) {
   test::makeClip(path, {{.codec = "libx264",
                          .pix_fmt = "yuv420p",

@@ -43,8 +43,9 @@ relievo::test::HapticRig arm(ManualClock& clock, int exchanges_left) {
   return {board, std::move(device), [board] { return board->milliamps != Axes{}; }};
 }
 
-const relievo::test::HapticBackend kArm{"acme", [](ManualClock& clock) { return arm(clock, -1); },
-                                        [](ManualClock& clock) { return arm(clock, 1); }};  // the one of `home`
+const relievo::test::HapticBackend kArm{
+    "acme", [](ManualClock& clock) { return arm(clock, -1); },
+    [](ManualClock& clock) { return arm(clock, 1); }};  // the one exchange is that of `home`
 INSTANTIATE_TEST_SUITE_P(Backends, HapticDeviceContract, testing::Values(kArm), relievo::test::kBackendName);
 
 TEST(AcmeArm, ConvertsItsAxesAndUnits) {

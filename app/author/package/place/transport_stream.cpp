@@ -82,7 +82,7 @@ class TransportStream final : public FilmPlace {
   static constexpr const char* kLineFailed =
       "sending failed: the receiver has gone, or the network; start again when it is back";
 
-  // The library's call-back; its buffer is whole packets, which are its own to change.
+  // The library's call-back. Its buffer holds whole packets, which it may change.
 #if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7
   using PacketBytes = const std::uint8_t;
 #else

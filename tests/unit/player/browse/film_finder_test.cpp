@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Films are found in folders, and a place that does not answer costs only itself.
+// Films are found in folders; a folder that does not answer keeps back only its own films.
 #include "app/player/browse/film_finder.h"
 
 #include <gmock/gmock.h>
