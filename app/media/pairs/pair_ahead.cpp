@@ -184,8 +184,9 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
 // The depth in a picture as it is stored, as `describe` looks at it.
 Result<Frame> PairReader::Impl::depthIn(const Frame& stored) {
   if (isPacked() && info.packing != Packing::DepthAlone) {
-    const bool in_yuv = stored.model == ColorModel::Yuv && gray == GrayFrom::Luma;
-    auto halves = in_yuv ? splitPacked(stored, info.packing, DepthCode::Hue, GrayFrom::Luma, seam) : halvesOf(stored);
+    const bool in_yuv = stored.model == ColorModel::Yuv && packed.gray == GrayFrom::Luma;
+    auto halves =
+        in_yuv ? splitPacked(stored, info.packing, DepthCode::Hue, GrayFrom::Luma, packed.seam) : halvesOf(stored);
     if (!halves) return std::unexpected(halves.error());
     return std::move(halves->depth);
   }

@@ -51,7 +51,7 @@ Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
 // Colour and depth of a packed picture, the depth's samples in order.
 Result<Halves> PairReader::Impl::halvesOf(const Frame& stored) const {
   const bool bytes = reordering.order != SampleOrder::AsStored && stored.model == ColorModel::Rgb;
-  auto halves = splitPacked(stored, info.packing, bytes ? DepthCode::Hue : clues.code, gray, seam);
+  auto halves = splitPacked(stored, info.packing, bytes ? DepthCode::Hue : clues.code, packed.gray, packed.seam);
   if (!halves || !bytes) return halves;
   auto ordered = inOrder(halves->depth, reordering.order);
   if (!ordered) return std::unexpected(ordered.error());
@@ -62,9 +62,11 @@ Result<Halves> PairReader::Impl::halvesOf(const Frame& stored) const {
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
   const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
   const bool beside = info.packing == Packing::SideBySide || info.packing == Packing::SideBySideDepthFirst;
-  seam = beside ? whiteSeam(look) : 0;
-  if (seam > 0) clues.why.push_back(print("the %d white columns between the halves are left out", seam));
-  const auto whole = splitPacked(look, info.packing, DepthCode::Hue, GrayFrom::Luma, seam);
+  packed.seam = beside ? whiteSeam(look) : 0;
+  if (packed.seam > 0) {
+    clues.why.push_back(print("the %d white columns between the halves are left out", packed.seam));
+  }
+  const auto whole = splitPacked(look, info.packing, DepthCode::Hue, GrayFrom::Luma, packed.seam);
   if (whole) lookForCode(whole->depth);
   if (whole && clues.code == DepthCode::Luma && options.as == nullptr) reordering.order = packedOrder(whole->depth);
   const auto seen = halvesOf(look);
@@ -73,7 +75,7 @@ Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
   info.color_width = halves->color.width;
   info.color_height = halves->color.height;
   // A half of YUV as it is still has its signalling and its chroma.
-  const bool in_yuv = whole && look.model == ColorModel::Yuv && gray == GrayFrom::Luma;
+  const bool in_yuv = whole && look.model == ColorModel::Yuv && packed.gray == GrayFrom::Luma;
   const Frame& depth_look = in_yuv ? whole->depth : seen->depth;
   return describe(halves->depth, depth_look, seen->color, color);
 }

@@ -120,8 +120,12 @@ struct PairReader::Impl {
   std::deque<Frame> color_ahead;     // read, not yet delivered
   std::deque<Subtitle> words_ahead;  // of a subtitle file
   DepthClues clues;                  // of the depth, as far as they were looked at
-  GrayFrom gray = GrayFrom::Luma;    // of packed depth
-  int seam = 0;                      // columns of a margin between the halves
+  // Depth that is packed into the colour's picture.
+  struct PackedDepth {
+    GrayFrom gray = GrayFrom::Luma;
+    int seam = 0;  // columns of a margin between the halves
+  };
+  PackedDepth packed;
   // Two views in one picture.
   struct Views {
     bool right_first = false;

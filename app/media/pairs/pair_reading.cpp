@@ -60,7 +60,7 @@ CalibrationSettings redAsLuma(const Frame& picture) {
 void PairReader::Impl::lookAround() {
   const MediaSource& source = sources.color()->source();
   clues = {.command_line = options.command_line, .side_file = options.side_file, .as = options.as, .place = {}};
-  gray = GrayFrom::Luma;
+  packed.gray = GrayFrom::Luma;
   views = {};
   reordering.kind = nullptr;
   clues.place = lookAtTags(source.tags());
@@ -129,8 +129,8 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   if (clues.code_by == CalibrationOrigin::Default) {
     clues.code = found->code;
     clues.code_by = CalibrationOrigin::FirstPicture;
-    gray = found->gray;
-    if (gray == GrayFrom::Red) clues.pictures.merge(redAsLuma(look));
+    packed.gray = found->gray;
+    if (packed.gray == GrayFrom::Red) clues.pictures.merge(redAsLuma(look));
   }
   clues.why.push_back(std::move(found->why));
 }
