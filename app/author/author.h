@@ -16,6 +16,7 @@
 #include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
 #include "app/enhance/enhancer.h"
+#include "app/media/lost_part.h"
 #include "app/media/pair_reader.h"
 #include "platform/failure.h"
 
@@ -51,6 +52,7 @@ struct AuthorSummary {
   std::string read_as;                    // what the source's depth means, for a person; empty for the sample film
   std::vector<std::string> read_because;  // why, and what else it may be
   std::vector<std::string> notes;         // what was done to the pictures
+  std::vector<LostPart> lost;             // parts of the source that the film lacks
 };
 
 // Called after every colour picture with the number done and, if known, the total.

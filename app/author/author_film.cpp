@@ -134,6 +134,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   if (!packager) return failOn(source.url, {ErrorCode::Corrupt, 0, "holds no pictures"});
   auto summary = packager->finish();
   if (!summary) return summary;
+  if (live) summary->lost.clear();  // a camera announces nothing
   const std::vector<std::string> notes = supply.notes();
   summary->notes.insert(summary->notes.begin(), notes.begin(), notes.end());
   return summary;

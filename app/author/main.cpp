@@ -58,7 +58,9 @@ constexpr const char* kFooter =
     "high.\n"
     "Pictures keep their timestamps. The calibration is written to the container's tags and into the H.264 or HEVC\n"
     "stream. Sound, subtitles, languages, chapters and titles of the colour's file are copied; a line names what the\n"
-    "film's container cannot hold. At the end a table shows what was done to the depth.";
+    "film's container cannot hold. At the end a table shows what was done to the depth.\n"
+    "\n"
+    "Exit code: 0 done, 1 failed at run time, or the film is made but a source was not whole, 2 usage error.";
 
 void addSourceOptions(CLI::App& app, SourceOptions& source) {
   app.add_option("FILE,--color", source.url,
@@ -249,7 +251,7 @@ int run(Arguments& a) {
   }
   if (!summary) return tellEnd(summary.error(), a.output.path);
   say(toText(a.output.path, *summary));
-  return kExitDone;
+  return summary->lost.empty() ? kExitDone : tell(failureOf(summary->lost.front()));
 }
 
 // Several threads allocate and free pictures: with a heap for each thread, glibc would use a sixth more memory.

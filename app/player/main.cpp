@@ -168,8 +168,8 @@ int play(PlayOptions options, const FileConfig& config) {
   const auto played = player.run(stop);
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
+  if (played || report.frames_shown > 0) say(toText(report, options.verbose));
   if (!played) return tellWithNearFile(played.error());
-  say(toText(report, options.verbose));
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
   return files;

@@ -175,6 +175,7 @@ class Player {
   void leaveFilm(MonotonicTime now);
   void stopFilm(MonotonicTime now);
   void endFilm(MonotonicTime now);
+  [[nodiscard]] bool endsWithFilms() const noexcept { return !config_.stays && !returnsToBrowser(); }
   void followFault(MonotonicTime now);
 
   PlayerConfig config_;
@@ -199,7 +200,7 @@ class Player {
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens
-  std::optional<Failure> missed_;   // likewise, of the first film that was named by the user
+  std::optional<Failure> missed_;   // likewise, of the first film that was named by the user, or was not whole
   bool display_failed_ = false;     // no other film can be played either
   bool quitting_ = false;
   std::optional<MonotonicTime> ended_;

@@ -63,7 +63,8 @@ void Player::stopFilm(MonotonicTime now) {
 
 void Player::endFilm(MonotonicTime now) {
   film_.countPlayed(now);
-  film_.noteMissing();
+  const std::vector<LostPart> lost = film_.noteMissing();
+  if (!lost.empty() && endsWithFilms() && !missed_) missed_ = failureOf(lost.front());
   apply(PlayerEvent::EndOfFilm);
   programme_.forgetPlace();
   const auto next = programme_.afterEnd();
@@ -78,7 +79,7 @@ void Player::endFilm(MonotonicTime now) {
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();
-  const bool named = programme_.named() && !config_.stays && !returnsToBrowser();
+  const bool named = programme_.named() && endsWithFilms();
   if (named && !missed_) missed_ = failure_;
   if (!other && named) return;
   if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser())

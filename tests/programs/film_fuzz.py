@@ -34,6 +34,11 @@ def files_under(folder):
     return {os.path.relpath(os.path.join(at, name), folder) for at, _, names in os.walk(folder) for name in names}
 
 
+def makes_film(code, said):
+    """True if the author says so: also of what there was of a source that was not whole."""
+    return code == 0 or (code == 1 and ": it is not whole: " in said)
+
+
 def kill(process):
     try:
         os.killpg(process.pid, signal.SIGKILL)
@@ -107,7 +112,7 @@ class Fuzzer:
         with open(said, encoding="utf-8", errors="replace") as file:
             words = file.read()
         mine = {f"{out.removesuffix('.m3u8')}.segments/{part}" for part in ("init.mp4", "00000.m4s")}
-        written = before | (mine if process.returncode == 0 else set())
+        written = before | (mine if makes_film(process.returncode, words) else set())
         left = (files_under(films) - written) | files_under(home)
         return Run(process.returncode, words, peak, stuck, sorted(left))
 
@@ -122,7 +127,7 @@ class Fuzzer:
             return f"exit code {run.code}"
         if run.code != 0 and not run.said.strip():
             return "failed without a word"
-        if program == "author" and out_exists != (run.code == 0):
+        if program == "author" and out_exists != makes_film(run.code, run.said):
             return f"exit code {run.code}, but the film is {'there' if out_exists else 'not there'}"
         if run.left:
             return "left behind: " + " ".join(run.left[:5])

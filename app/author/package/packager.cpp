@@ -219,7 +219,8 @@ Outcome<AuthorSummary> Packager::finish() {
     summary.notes.push_back(std::move(line));
   }
   if (auto line = cut_.explain(); !line.empty()) summary.notes.push_back(std::move(line));
-  for (std::string& line : sourceNotes(source_, info_, reader_.counters(), format_, coder_.counts())) {
+  summary.lost = lostParts(source_.url, source_.depth_url, reader_.counters());
+  for (std::string& line : sourceNotes(summary.lost, info_, reader_.counters(), format_, coder_.counts())) {
     summary.notes.push_back(std::move(line));
   }
   if (const KeptTracks* const kept = writer_->kept()) {

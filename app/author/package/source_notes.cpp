@@ -12,12 +12,6 @@ void tell(Notes& notes, std::uint64_t count, const char* what) {
   if (count > 0) notes.push_back(std::to_string(count) + what);
 }
 
-void tellMissing(Notes& notes, const std::string& url, Duration missing) {
-  if (missing <= Duration(0)) return;
-  const int digits = missing < std::chrono::milliseconds(100) ? 2 : 1;
-  notes.push_back(url + print(" ends %.*f s early: truncated or damaged", digits, toSeconds(missing)));
-}
-
 // ITU-T H.273.
 void tellColor(Notes& notes, const FilmFormat& format) {
   constexpr std::uint8_t kPq = 16, kHlg = 18, kBt2020 = 9, kDciP3 = 11, kDisplayP3 = 12;
@@ -60,16 +54,15 @@ std::vector<std::string> notKept(const FilmInfo& info, const KeptWishes& keep) {
   return notes;
 }
 
-std::vector<std::string> sourceNotes(const SourceOptions& source, const FilmInfo& info, const PairCounters& counters,
-                                     const FilmFormat& format, const DepthCoder::Counts& codes) {
+std::vector<std::string> sourceNotes(const std::vector<LostPart>& lost, const FilmInfo& info,
+                                     const PairCounters& counters, const FilmFormat& format,
+                                     const DepthCoder::Counts& codes) {
   Notes notes;
-  tellMissing(notes, source.url, counters.missing);
-  tellMissing(notes, source.depth_url, counters.depth_missing);
+  for (const LostPart& part : lost) notes.push_back(toText(part));
   tell(notes, counters.without_depth, " colour pictures have no depth: the depth begins later or ends earlier");
   tell(notes, counters.mismatched, " colour pictures lacked their depth picture; the previous one was held");
   tell(notes, counters.depth_skipped, " depth pictures matched no colour picture and were left out");
   tell(notes, counters.missed_pictures, " camera pictures were lost on the way");
-  tell(notes, counters.damaged, " damaged packets or pictures were left out");
   if (const int more = info.video_tracks_unused; more > 0) {
     notes.push_back(print("%d more video %s left out; if the depth is one of them, save it to a file for --depth", more,
                           more == 1 ? "track is" : "tracks are"));

@@ -8,12 +8,13 @@
 
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
+#include "app/media/lost_part.h"
 #include "app/media/pair_reader.h"
 
 namespace relievo {
 
 // One line each; none if the film preserves everything of the source.
-[[nodiscard]] std::vector<std::string> sourceNotes(const SourceOptions& source, const FilmInfo& info,
+[[nodiscard]] std::vector<std::string> sourceNotes(const std::vector<LostPart>& lost, const FilmInfo& info,
                                                    const PairCounters& counters, const FilmFormat& format,
                                                    const DepthCoder::Counts& codes);
 

@@ -78,20 +78,13 @@ void FilmNotes::slow() {
                 "some are left out; sound and touch go on as they are");
 }
 
-void FilmNotes::missing(const PairCounters& pairs) {
-  const auto noteOne = [this](const std::string& url, Duration missing, const char* done) {
-    if (missing <= Duration(0)) return;
-    const int digits = missing < std::chrono::milliseconds(100) ? 2 : 1;
-    journal_.note(print("%s ends %.*f s too early: truncated or damaged", url.c_str(), digits, toSeconds(missing)),
-                  done);
-  };
-  if (pairs.damaged > 0) {
-    journal_.note(
-        print("%llu pictures of %s are damaged", static_cast<unsigned long long>(pairs.damaged), url_.c_str()),
-        "the decodable parts were shown");
+std::vector<LostPart> FilmNotes::missing(const PairCounters& pairs) {
+  std::vector<LostPart> parts = lostParts(url_, depth_url_, pairs);
+  for (const LostPart& part : parts) {
+    journal_.note(toText(part),
+                  part.of_depth ? "the rest was shown without depth and force" : "the part that exists was played");
   }
-  noteOne(url_, pairs.missing, "the part that exists was played");
-  noteOne(depth_url_, pairs.depth_missing, "the rest was shown without depth and force");
+  return parts;
 }
 
 }  // namespace relievo

@@ -4,8 +4,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/media/film_feed.h"
+#include "app/media/lost_part.h"
 #include "app/media/pair_reader.h"
 #include "app/player/journal.h"
 #include "platform/error.h"
@@ -28,8 +30,8 @@ class FilmNotes {
   void refused(const Error& seek);
   // The machine does not decode all pictures in time; reported once.
   void slow();
-  // After the film's end: which parts of it were damaged or missing.
-  void missing(const PairCounters& pairs);
+  // After the film's end: what it lacked.
+  std::vector<LostPart> missing(const PairCounters& pairs);
 
  private:
   Journal& journal_;

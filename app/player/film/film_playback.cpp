@@ -64,7 +64,7 @@ void FilmPlayback::close(MonotonicTime now) {
   sound_.forget();
   info_ = {};
   pace_.forget();
-  held_ = begun_ = starved_ = false;
+  held_ = begun_ = sought_ = starved_ = false;
   decode_pace_ = {};
   leaves_out_ = false;
   stepped_ = 0;
@@ -177,7 +177,14 @@ void FilmPlayback::seek(MediaTime target, MonotonicTime now) {
   sound_.forget();
   target_ = target;
   feed_.seek(target, rushes() ? fromSeconds(kRushStepS * rate_) : Duration(0));
-  jumped_ = true;
+  jumped_ = sought_ = true;
+}
+
+// A seek may land within a picture, which then counts as damaged.
+std::vector<LostPart> FilmPlayback::noteMissing() {
+  std::vector<LostPart> parts = notes_.missing(feed_.counters());
+  if (sought_) std::erase_if(parts, [](const LostPart& part) { return part.damaged > 0; });
+  return parts;
 }
 
 bool FilmPlayback::arriving(MonotonicTime now) {

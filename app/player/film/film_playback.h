@@ -108,8 +108,8 @@ class FilmPlayback {
   // Once a round: feeds the sound output, and notes losses and recoveries in the journal.
   void followSound(bool playing);
   void noteNews();
-  // Notes which parts of the film were missing; after its end.
-  void noteMissing() { notes_.missing(feed_.counters()); }
+  // Notes what the film lacked, and returns what it lacks for sure; after its end.
+  std::vector<LostPart> noteMissing();
   // The present picture is now on the screen.
   void noteShown();
 
@@ -186,6 +186,7 @@ class FilmPlayback {
 
   FilmInfo info_;
   bool begun_ = false;
+  bool sought_ = false;  // since it was opened
   bool held_ = false;
   double rate_ = 1;  // over 1: by key frames, without touch
   bool jumped_ = true;

@@ -48,7 +48,8 @@ inline constexpr const char* kSelfTestFooter =
     "nothing "
     "is\n"
     "bad, 1 something is, 2 usage error.\n";
-inline constexpr const char* kExitCodes = "\nExit code: 0 done, 1 failed at run time, 2 usage error.\n";
+inline constexpr const char* kExitCodes =
+    "\nExit code: 0 done, 1 failed at run time, or a film that was played to its end was not whole, 2 usage error.\n";
 inline constexpr const char* kPlayAbout =
     "Play a film: shown in stereo, felt by the finger\n"
     "\n  relievo film.mkv                         in a window; press into the picture with the mouse to feel it\n"

@@ -119,7 +119,7 @@ TEST_F(AuthorFilm, SaysThatASourceBreaksOff) {
   const auto summary = make({.url = folder_ / "film.mkv"});
   ASSERT_TRUE(summary.has_value());
   ASSERT_FALSE(summary->notes.empty());
-  EXPECT_THAT(summary->notes[0], HasSubstr("film.mkv ends "));
+  EXPECT_THAT(summary->notes[0], HasSubstr("film.mkv lacks at least "));
 }
 
 TEST_F(AuthorFilm, PutsKeyFramesAtTheSamePlacesOfBothTracks) {

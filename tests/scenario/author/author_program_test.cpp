@@ -38,6 +38,23 @@ TEST_F(AuthorFilm, ProgramPackagesAndSaysWhatItDid) {
   EXPECT_EQ(readFilm(folder_ / "out.mp4").pairs.size(), 30u);
 }
 
+// Of the colour, of the depth: what was asked for was a film of all of both.
+TEST_F(AuthorFilm, ProgramMakesAFilmOfABrokenSourceButSaysThatItFailed) {
+  for (const char* broken : {"color.mkv", "depth.mkv"}) {
+    makeClip(folder_ / "color.mkv", {colorTrack(64, 48, 30, 90)});
+    ClipTrack depth = depthTrack("gray", [](int, int, int) { return 9u; });
+    depth.frames = 90;
+    makeClip(folder_ / "depth.mkv", {depth});
+    std::filesystem::resize_file(folder_ / broken, std::filesystem::file_size(folder_ / broken) / 2);
+    const auto said = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv --force");
+    EXPECT_EQ(said.exit_code, 1) << broken;
+    EXPECT_THAT(said.out, HasSubstr(std::string(broken) + " lacks at least "));
+    EXPECT_THAT(said.err, testing::EndsWith(folder_ / broken + ": it is not whole: only what was there was used; get "
+                                                               "the whole file\n"));
+    EXPECT_GT(readFilm(folder_ / "out.mkv").pairs.size(), 30u) << broken;
+  }
+}
+
 TEST_F(AuthorFilm, ProgramDoesNotReplaceAFileUnlessForced) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});

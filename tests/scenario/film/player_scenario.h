@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "app/media/lost_part.h"
 #include "tests/scenario/player_bench.h"
 
 namespace relievo {
@@ -25,6 +26,13 @@ class PlayerScenario : public testing::Test {
   void playsWell() {
     const auto played = bench_.run();
     ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
+  }
+  // It plays what is there of a source that is not whole, and the run does not end as if it had been whole.
+  void playsInPart(const char* source) {
+    const auto played = bench_.run();
+    ASSERT_FALSE(played);
+    EXPECT_EQ(played.error().thing, source);
+    EXPECT_STREQ(played.error().error.message, failureOf({}).error.message);
   }
   PlayerBench bench_;
 };

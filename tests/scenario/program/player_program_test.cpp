@@ -126,16 +126,18 @@ TEST_F(PlayerProgram, AFileCutInTheMiddlePlaysWhatIsThere) {
   makeClip(at("film.mkv"), {color(), depth()});
   fs::resize_file(at("film.mkv"), fs::file_size(at("film.mkv")) / 2);
   const auto result = play(at("film.mkv") + " --report " + at("r.json"));
-  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_EQ(result.exit_code, 1) << result.err;
   const json r = reportOf("r.json");
   const int seen = r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>();
   EXPECT_GT(seen, 5);
   EXPECT_LT(seen, 25);
-  EXPECT_THAT(result.err, HasSubstr("film.mkv ends 0."));
+  EXPECT_THAT(result.err, HasSubstr("film.mkv lacks at least 0."));
   EXPECT_THAT(result.err, HasSubstr("the part that exists was played"));
+  EXPECT_THAT(result.err, HasSubstr(at("film.mkv") + ": it is not whole"));
+  EXPECT_THAT(result.out, HasSubstr("frames"));
   bool told = false;
   for (const json& fault : r["faults"]) {
-    told = told || fault["what"].get<std::string>().find("too early") != std::string::npos;
+    told = told || fault["what"].get<std::string>().find("lacks") != std::string::npos;
   }
   EXPECT_TRUE(told) << r["faults"];
 }
