@@ -81,8 +81,8 @@ class Player {
   ~Player();
 
   // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Call once. Fails if the display is
-  // lost, and if the last film, or one named in the configuration, could not be played; the films after it are played
-  // all the same. A failed film of a list counts only if it was the last; the report names it.
+  // lost, and with the first film that could not be played; the films after it are played all the same. With a list of
+  // films to return to, or a player that stays, no film counts.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
   // changes nothing.
@@ -200,7 +200,7 @@ class Player {
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens
-  std::optional<Failure> missed_;   // likewise, of the first film that was named by the user, or was not whole
+  std::optional<Failure> missed_;   // likewise, of the first film of the run, or the first that was not whole
   bool display_failed_ = false;     // no other film can be played either
   bool quitting_ = false;
   std::optional<MonotonicTime> ended_;

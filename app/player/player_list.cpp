@@ -74,22 +74,22 @@ void Player::endFilm(MonotonicTime now) {
   stopFilm(now);
 }
 
-// Opens another film of the list after one that failed. A list of which one film was seen has not failed, unless its
-// films were named by the user: then a missing film counts.
+// Opens another film of the list after one that failed. The run ends with the first failure; the log names the others.
+// Where the viewer can choose another film, none of them counts.
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();
-  const bool named = programme_.named() && endsWithFilms();
-  if (named && !missed_) missed_ = failure_;
-  if (!other && named) return;
-  if (!other && !config_.stays && !programme_.seenOne() && !returnsToBrowser())
-    return;  // the player ends with that failure
+  const bool counts = endsWithFilms();
+  const bool first = counts && !missed_;
+  if (first) missed_ = failure_;
+  if (first && !other) return;
   const std::string what = failure_->thing + ": " + failure_->error.message;
   log(LogLevel::Error, "play", "%s; %s", what.c_str(), other ? "another film is played" : "it is stopped");
   if (other) {
     screen_.text().tell(what, now);
     return openFilm(*other, programme_.passOver(*other), now);
   }
+  if (counts) return;
   failure_.reset();
   stopFilm(now);
   screen_.text().tell(what, now);

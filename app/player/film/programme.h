@@ -52,10 +52,6 @@ class Programme {
   [[nodiscard]] std::size_t present() const noexcept { return present_; }
   [[nodiscard]] std::size_t size() const noexcept { return films_.size(); }
   [[nodiscard]] Way way() const noexcept { return way_; }
-  // A film of this list was shown: the list as a whole has not failed.
-  [[nodiscard]] bool seenOne() const noexcept { return seen_one_; }
-  // True if all films were passed to `begin` and none comes from a list.
-  [[nodiscard]] bool named() const noexcept { return lists_ == 0; }
   // `begin` has been called.
   [[nodiscard]] bool asked() const noexcept { return asked_; }
   [[nodiscard]] bool loops() const noexcept { return loop_; }

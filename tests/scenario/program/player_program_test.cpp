@@ -242,8 +242,8 @@ TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
   makeClip(at("two.mkv"), {color(15), depth(15)});
   std::ofstream(at("list.m3u")) << "#EXTM3U\n#EXTINF:1,One\none.mkv\nnone.mkv\ntwo.mkv\n";
   const auto result = play(at("list.m3u") + " --report " + at("r.json"));
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("none.mkv"));
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("\nrelievo: " + at("none.mkv"))) << "the last line";
   const json r = reportOf("r.json");
   EXPECT_EQ(r["films"], (json{at("one.mkv"), at("none.mkv"), at("two.mkv")}));
   EXPECT_EQ(r["video"]["frames_shown"].get<int>() + r["video"]["frames_dropped"].get<int>(), 45);
