@@ -76,6 +76,7 @@ Result<void> SceneRenderer::Impl::createParts() {
   };
   if (auto made_surface = take(relief_surface, ReliefSurface::create()); !made_surface) return made_surface;
   if (auto made_mixer = take(mixer, EyeMixer::create()); !made_mixer) return made_mixer;
+  if (auto made_reduced = take(reduced, ReducedView::create()); !made_reduced) return made_reduced;
   if (auto made_text = take(text, Overlay::create()); !made_text) return made_text;
   if (auto made_words = take(words, WordsInScene::create()); !made_words) return made_words;
   if (auto made_finger = take(finger, FingerScene::create()); !made_finger) return made_finger;
