@@ -16,7 +16,7 @@ extern "C" const char __start_relievo_tick[], __stop_relievo_tick[];
 
 namespace relievo {
 
-// Returns at once; the memory is fetched in the background, and up to three lines behind it.
+// Returns at once; the memory, and up to three cache lines after it, are fetched in the background.
 inline void prefetch(const void* begin, const void* end) RELIEVO_RT {
   constexpr std::uintptr_t kLine = 64;
   for (auto line = reinterpret_cast<std::uintptr_t>(begin) & ~(kLine - 1); line < reinterpret_cast<std::uintptr_t>(end);

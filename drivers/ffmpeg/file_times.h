@@ -33,7 +33,7 @@ class FileGaps {
  public:
   // At the beginning, or after a seek.
   void begin() noexcept { ends_.clear(); }
-  // Tells a gap before the packet, of many the tenth, hundredth, .. `url` names the film in the log.
+  // Logs a gap before the packet; of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
   void note(const Packet& packet, Duration length, const std::string& url);
 
  private:

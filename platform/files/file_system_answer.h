@@ -34,7 +34,7 @@ class FileSystemAnswers {
   [[nodiscard]] Result<void> ask(const std::string& path, std::function<void()> question);
   // Starts `act`, such as a close, without waiting for it. The result can be passed to `giveUp`.
   std::shared_ptr<void> leave(std::function<void()> act);
-  // Until this act ends, questions about the mount of `path` fail at once.
+  // Until `act` ends, which `leave` has started, questions about the mount of `path` fail at once.
   void giveUp(const std::string& path, const std::shared_ptr<void>& act);
 
  private:

@@ -26,9 +26,9 @@ inline Rgb paint(double x, double y) {
   return {wave(1.5 * x + 0.2 * y), wave(1.1 * x - 0.5 * y), wave(0.9 * (x + y) + 2)};
 }
 
-// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane. A ray goes aside by
-// at most 0.36 mm per mm of depth, and the relief is no steeper than 0.6: a ray meets it once, and each round is at
-// least four times as near to that point, 40 mm in the beginning and 1e-8 in the end.
+// The colour that an eye at (eye_x, 0, 620) sees through the point (x, y, 20) of the screen plane. A ray moves sideways
+// by at most 0.36 mm per mm of depth, and the relief is no steeper than 0.6, so that the ray meets it once. Each
+// iteration comes at least four times closer to that point: from 40 mm to 1e-8 mm.
 inline Rgb seen(double eye_x, double x, double y) {
   const auto along = [](double z) { return (kDistance + kScreenZ - z) / kDistance; };
   const auto across = [&](double z) { return eye_x + (x - eye_x) * along(z); };

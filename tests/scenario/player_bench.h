@@ -29,13 +29,13 @@ class PlayerBench {
   static MockTrack colorTrack(int frames) {
     return {.width = 32, .height = 24, .model = ColorModel::Yuv, .frames = frames, .frame_period = kPeriod};
   }
-  // A plane whose height tells the frame: code 100 + frame % 10, so that what is felt tells what is shown.
+  // A plane whose height encodes the frame's number: code 100 + frame % 10. So the force shows which frame is felt.
   static MockTrack depthTrack(int frames) {
     MockTrack track{.width = 32, .height = 24, .frames = frames, .frame_period = kPeriod};
     track.sample = [](int frame, int, int, int) { return static_cast<std::uint16_t>(100 + frame % 10); };
     return track;
   }
-  // As long as `frames` pictures. Each sample tells its own time: seconds by a thousand.
+  // As long as `frames` pictures. The value of each sample is its own time, in thousands of seconds.
   static MockTrack soundTrack(int frames) {
     MockTrack track{.kind = StreamKind::Audio, .frames = 2 * frames, .frame_period = kPeriod / 2};
     track.sound = [](double seconds, int) { return static_cast<float>(seconds * 1e-3); };

@@ -58,7 +58,7 @@ class DepthSmoother {
   std::size_t stride_;                             // of the blurred lines, in floats
   std::vector<int> columns_;                       // of the samples of a line
   std::vector<float> samples_, has_height_;        // of the rows that make a line; 1 or 0
-  std::vector<float> heights_, shares_;            // the blocks' means of both, with a border before and behind
+  std::vector<float> heights_, shares_;            // means over blocks of the two above, with a border at both ends
   std::vector<float> height_lines_, share_lines_;  // blurred across
   std::vector<float> height_out_, share_out_;      // one line, blurred down as well
   std::vector<std::uint8_t> holed_;                // lines whose shares are not all 1

@@ -28,7 +28,7 @@ class SubtitleTrack {
   // Takes a packet of any subtitle stream, selected or not.
   void keep(Packet packet);
   [[nodiscard]] std::optional<Subtitle> next();
-  // Call after a seek. What was read before it stays remembered: its times hold.
+  // Call after a seek. Subtitles that were read before it are kept, since their times stay valid.
   void restart();
   // Call after restart and before the source's own seek: a line that runs at the target may begin before the key frame
   // that the pictures are decoded from. Where the film has too many bytes a second, less than `before` is read, now and

@@ -22,7 +22,7 @@ struct PlayOptions {
   BackEndName remote;
   BackEndName audio;
   BackEndName decoder;
-  std::optional<StereoSignal> tv_signal;  // asked for; not given: that of the picture's layout
+  std::optional<StereoSignal> tv_signal;  // nullopt: the one that fits the picture's layout
   std::optional<double> rate_hz;          // of the haptic task; nullopt: the device's own
   bool software = false;                  // true: decode without hardware
   std::string report_path;                // empty: none

@@ -33,7 +33,7 @@ class WordsPlace {
  public:
   static constexpr double kStep = 1.0;               // px a picture
   static constexpr double kSink = 0.25;              // px a picture, back towards the relief
-  static constexpr double kFastest = 1.0 / 5;        // of the picture's width a picture
+  static constexpr double kFastest = 1.0 / 5;        // the picture's width per picture
   static constexpr double kFastestBlind = 1.0 / 40;  // without pictures ahead
   static constexpr double kInFront = 0.002;  // of the picture's width: the disparity from the relief to the words
 

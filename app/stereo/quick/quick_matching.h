@@ -64,8 +64,8 @@ class QuickMatching {
   Census left_census_, right_census_, reversed_;
   std::vector<std::uint8_t> costs_;         // of all pixels and disparities
   std::vector<Cost> sums_;                  // likewise, of the paths
-  std::vector<Cost> beside_;                // of a step from the pixel before in the row
-  std::array<std::vector<Cost>, 3> above_;  // of a step from the three pixels above
+  std::vector<Cost> beside_;                // of the path from the pixel before in the row
+  std::array<std::vector<Cost>, 3> above_;  // of the paths from the three pixels above
   std::vector<Cost> before_, now_, none_;   // a row's and a pixel's paths, and one that begins
   std::vector<Cost> least_right_;
   std::vector<std::size_t> speck_;  // pixels

@@ -33,7 +33,8 @@ inline void PrintTo(const AudioOutputBackend& backend, std::ostream* out) {
   *out << backend.name;
 }
 
-// Links the suite's cases to whoever includes this header: of a static library only what somebody names is linked.
+// Of a static library the linker takes only what is referenced. This reference brings the suite's cases into every
+// program that includes this header.
 [[nodiscard]] bool audioOutputCases();
 inline const bool kAudioOutputCases = audioOutputCases();
 

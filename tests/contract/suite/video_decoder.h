@@ -97,7 +97,8 @@ class VideoDecoderContract : public test::FilmContract {
 
 namespace test {
 
-// Links the suite's cases to whoever includes this header: of a static library only what somebody names is linked.
+// Of a static library the linker takes only what is referenced. This reference brings the suite's cases into every
+// program that includes this header.
 [[nodiscard]] bool videoDecoderCases();
 inline const bool kVideoDecoderCases = videoDecoderCases();
 

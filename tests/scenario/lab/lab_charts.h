@@ -49,7 +49,7 @@ class Csv {
       rows_.push_back(row);
     }
   }
-  // The one row in which all these cells are so.
+  // The number in `column` of the one row that has all the wanted cells.
   [[nodiscard]] double value(const CsvRow& wanted, const std::string& column) const {
     const CsvRow* found = nullptr;
     int count = 0;
@@ -76,7 +76,7 @@ inline bool withoutEgl(const ProgramResult& result) {
                                           result.err.find("GLES", drawing) != std::string::npos);
 }
 
-// One run of everything serves all tests, those of the classes made of this one too.
+// One run serves all tests, also those of classes derived from this one.
 class LabCharts : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -57,7 +57,7 @@ class PlayerProgram : public testing::Test {
     EXPECT_EQ(result.out, "");
   }
 
-  // Without an end, with both files to write.
+  // The arguments of a run that plays without end and has two files to write.
   [[nodiscard]] std::vector<std::string> endless(const std::string& film) const {
     return {std::string(RELIEVO_BIN_DIR) + "/relievo",
             "play",

@@ -12,7 +12,7 @@
 
 namespace relievo::test {
 
-// The sound that is in the air is told by its samples (PlayerBench::soundTrack), the picture by the film's frame that
+// The sound that is heard is recognised by its samples (PlayerBench::soundTrack), the picture by the film's frame that
 // is shown: neither is asked of the player.
 class PlayerSound : public testing::Test {
  protected:
@@ -43,7 +43,7 @@ class PlayerSound : public testing::Test {
     ASSERT_TRUE(played) << played.error().thing << ": " << played.error().error.message;
     ASSERT_EQ(bench_.report.frames_dropped, 0u);
   }
-  // Of the sound against picture k of a film that is shown from its beginning without a break.
+  // How far the sound is ahead of picture k, in a film that is shown from its beginning without a break.
   [[nodiscard]] double offsetMs(std::size_t k) const {
     const double picture_s = toSeconds(PlayerBench::kPeriod) * static_cast<double>(k);
     return moments_[k].heard_s ? 1e3 * (*moments_[k].heard_s - picture_s) : std::nan("");

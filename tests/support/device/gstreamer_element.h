@@ -17,14 +17,15 @@ class GstreamerElement {
   GstreamerElement(const GstreamerElement&) = delete;
   GstreamerElement& operator=(const GstreamerElement&) = delete;
 
-  // After so many pictures, counted from here over all of the element's instances; `times`: instances that it befalls.
+  // Makes the fault after so many pictures, counted from here over all instances of the element; `times`: in so many
+  // instances.
   void befall(Fault fault, int after, int times);
   // Returns when an instance hangs.
   void awaitHang();
   // Pictures are in dma-bufs (memory that is described as such).
   void useDmaBufs();
   [[nodiscard]] int instances() const;
-  // Instances and pictures that are not given up yet, of the whole process.
+  // The instances and pictures in the whole process that still exist.
   [[nodiscard]] int live() const;
 
   static constexpr const char* kName = "relievotesth264";

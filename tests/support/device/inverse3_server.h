@@ -27,7 +27,7 @@ class Inverse3Server {
   Inverse3Server& operator=(const Inverse3Server&) = delete;
 
   [[nodiscard]] inverse3::Address address() const { return {.host = "127.0.0.1", .port = port_}; }
-  // Calls `use` while the service stands still.
+  // Calls `use` while the service is stopped.
   template <class Use>
   auto with(const Use& use) {
     const std::lock_guard guard(lock_);

@@ -16,7 +16,7 @@ namespace relievo::test {
 
 class UinputPad {
  public:
-  // In toolchain/guest alone: its kernel can, and its time is virtual, which limits of milliseconds need.
+  // True only in toolchain/guest: its kernel has uinput, and its time is virtual, which limits of milliseconds need.
   static bool canBeMade();
   explicit UinputPad(const PadFacts& facts);
   UinputPad(const UinputPad&) = delete;
@@ -31,7 +31,7 @@ class UinputPad {
     bool made = false, playing = false;
     ff_effect level{};
   };
-  // Of this type, as it is now; all zero if none is made.
+  // The effect of this type in its present state; all zero if there is none.
   [[nodiscard]] Effect effect(std::uint16_t type) const;
   [[nodiscard]] bool plays() const;
   [[nodiscard]] bool hasEffects() const;

@@ -48,7 +48,7 @@ struct ClipSound {
   std::function<double(double, int)> sound;
 };
 
-// The format is told by the path's ending: .mkv .mp4 .mov .avi .ts .png ("%02d.png": numbered pictures) .. Tags are the
+// The path's ending chooses the format: .mkv .mp4 .mov .avi .ts .png ("%02d.png": numbered pictures) .. Tags are the
 // container's. Throws std::runtime_error with the reason when it cannot be made.
 void makeClip(const std::string& path, const std::vector<ClipTrack>& tracks,
               const std::map<std::string, std::string>& tags = {}, const std::vector<ClipSound>& sounds = {});

@@ -5,7 +5,7 @@
 
 namespace relievo::test {
 
-// The code at (column, row) by `code`; no holes.
+// A map whose code at (column, row) is code(c, r), without holes.
 template <class Code>
 DepthMap mapOf(int cols, int rows, Code&& code) {
   DepthMap map(cols, rows);

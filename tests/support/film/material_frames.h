@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of a material track made of numbers.
+// Makes pictures of a material track from a function that gives their codes.
 #pragma once
 
 #include <array>

@@ -34,7 +34,7 @@ class MethodStage : public testing::Test {
                                     volume));
     }
   }
-  // Another film, another seat.
+  // Call before another film: removes the pictures and makes the method forget the finger.
   void clear() {
     surfaces_.clear();
     frames_.clear();
@@ -61,7 +61,7 @@ class MethodStage : public testing::Test {
     return makeWindow(std::span(&frame, 1), kVolume);
   }
 
-  // Another method instead; one cannot be assigned.
+  // Replaces the method; a method cannot be assigned.
   void make(const RelievoMethod::Config& config) {
     std::destroy_at(&method_);
     std::construct_at(&method_, config);

@@ -60,10 +60,11 @@ struct StillView {
   }
 };
 
-// What a relief makes of the scene's farthest and nearest: by least squares over the samples from `low` to `high`.
+// The relief's heights at the scene's farthest and nearest depth, from a line fitted by least squares to the samples
+// with heights from `low` to `high`.
 struct ReliefEnds {
   double far = 0, near = 0;
-  double rest = 0;  // standard deviation of the samples from it
+  double rest = 0;  // standard deviation of the samples from that line
 };
 template <class Value>
 ReliefEnds endsOf(const StillView& view, Value value, double low, double high) {
@@ -83,7 +84,7 @@ ReliefEnds endsOf(const StillView& view, Value value, double low, double high) {
   return {level + slope * StillScene::kFar, level + slope * StillScene::kNear,
           std::sqrt(std::max(vy - slope * vxy, 0.0))};
 }
-// Of 16-bit depth whose heights are linear from 15 to 85 % of the codes.
+// For a relief of 16 bits whose heights are linear from 15 to 85 % of the codes.
 inline ReliefEnds endsOf(const StillView& view, const Frame& relief) {
   const auto share = [&](std::size_t i) {
     const Plane& plane = relief.planes[0];
@@ -93,8 +94,8 @@ inline ReliefEnds endsOf(const StillView& view, const Frame& relief) {
   return endsOf(view, share, 0.16, 0.84);
 }
 
-// The change of both ends from picture to picture (rms), and from the first eight to the last eight (means), as shares
-// of the relief.
+// How much the nearest and the farthest depth of a still scene change, as shares of the relief: from picture to picture
+// (flicker, rms), and from the mean of the first eight pictures to that of the last eight (drift).
 struct Unrest {
   double flicker = 0, drift = 0;
 };

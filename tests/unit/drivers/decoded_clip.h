@@ -25,7 +25,7 @@ struct Clip {
   std::unique_ptr<VideoDecoder> decoder = makeFfmpegDecoder();
   std::vector<Packet> packets;
 
-  // Of the one video stream.
+  // Opens the file's only stream, which is video.
   explicit Clip(const std::string& path) {
     EXPECT_TRUE(source->open(path).has_value());
     while (auto packet = source->read().value()) packets.push_back(*packet);

@@ -22,7 +22,7 @@ struct DecodedFilm {
   std::uint64_t damaged = 0;  // pictures that the decoder passed over
 };
 
-// Of a film of one stream.
+// Decodes a film with one stream.
 inline DecodedFilm decodeFilm(const std::string& url) {
   DecodedFilm film;
   const auto source = drivers::makeMediaSource(url);

@@ -21,7 +21,7 @@ class WordsInScene {
 
   // Shown from now on.
   void set(const TextFrame& frame, const std::vector<TextPicture>& pictures);
-  // The next picture does not continue the last one: they may stand anywhere.
+  // The next picture does not continue the last one: the words may jump.
   void cut() noexcept { place_.begin(); }
   // Call when a new picture comes: the subtitles move on to it.
   void newPicture() noexcept { due_ = true; }

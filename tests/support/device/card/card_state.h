@@ -24,7 +24,7 @@ struct CardState {
   int rejected = 0;
   CardPicture drawn;  // by the last swap
 };
-// Of the one card; there is one while it is called.
+// The state of the one fake card; valid while a FakeCard exists.
 [[nodiscard]] CardState& theCard();
 
 }  // namespace relievo::test

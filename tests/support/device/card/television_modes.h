@@ -105,7 +105,7 @@ inline std::vector<drmModeModeInfo> generousTelevision() {
       .stereo(DRM_MODE_FLAG_3D_L_DEPTH, {32})
       .listed();
 }
-// A monitor of line-wise polarisers with both halves alone.
+// A monitor with line-wise polarisers, whose only 3D signal is side by side.
 inline std::vector<drmModeModeInfo> halvesTelevision() {
   return TelevisionModes().plain({16, 4, 3, 1}, 16).stereo(DRM_MODE_FLAG_3D_SIDE_BY_SIDE_HALF, {16}).listed();
 }

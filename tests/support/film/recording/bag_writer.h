@@ -64,7 +64,7 @@ class BagWriter {
   std::vector<std::string> connections_;           // their records
   std::map<std::uint32_t, ByteWriter> index_;      // of the chunk
   std::map<std::uint32_t, std::uint32_t> counts_;  // likewise
-  std::vector<bool> introduced_;                   // whose record is in a chunk
+  std::vector<bool> introduced_;                   // for each connection: a chunk has its record
   std::vector<Info> infos_;
   std::uint32_t hole_ = 0;                                    // bytes behind the chunk
   std::vector<std::pair<std::size_t, std::uint32_t>> holes_;  // where in `file_`, and how long

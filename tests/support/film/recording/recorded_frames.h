@@ -13,7 +13,7 @@
 
 namespace relievo::test {
 
-// From where the source stands to its end, by a decoder that is open for the stream. Every picture is a key frame.
+// From the source's position to its end, by a decoder that is open for the stream. Every picture is a key frame.
 [[nodiscard]] inline std::vector<Frame> framesOf(MediaSource& source, const StreamInfo& stream, VideoDecoder& decoder) {
   std::vector<Frame> frames;
   const auto receive = [&] {

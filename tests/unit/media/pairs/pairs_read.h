@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Clips whose pictures tell their numbers, and what a reader makes of them.
+// Clips in which the samples of each picture hold its number, and the pairs that a reader makes of them.
 #pragma once
 
 #include <gtest/gtest.h>
