@@ -47,6 +47,14 @@ struct YuvFormat {
   bool upside_down = false;
 };
 
+// `offset` and `step` in samples.
+inline Component componentIn(const YuvFormat& format, int plane, int offset, int step) {
+  const int bytes = format.bits > 8 ? 2 : 1;
+  return {static_cast<std::uint8_t>(plane), static_cast<std::uint8_t>(offset * bytes),
+          static_cast<std::uint8_t>(step * bytes), static_cast<std::uint8_t>(format.shift),
+          static_cast<std::uint8_t>(format.bits)};
+}
+
 // Bars of `width` x `height`, one memory plane after another; padding bytes have an arbitrary value.
 inline Frame makeYuvFrame(int width, int height, const YuvFormat& format) {
   Frame frame;
@@ -87,23 +95,18 @@ inline Frame makeYuvFrame(int width, int height, const YuvFormat& format) {
     const int first = c << format.chroma_x;
     return 0.5 * (first + std::min(first + (1 << format.chroma_x), width)) / width;
   };
-  const auto component = [&](int plane, int offset, int step) {
-    return Component{static_cast<std::uint8_t>(plane), static_cast<std::uint8_t>(offset * bytes),
-                     static_cast<std::uint8_t>(step * bytes), static_cast<std::uint8_t>(format.shift),
-                     static_cast<std::uint8_t>(format.bits)};
-  };
 
   addPlane(width, height, 1, [&](int c, int) { return at(lumaAt(c), 0); });
-  frame.components[0] = component(0, 0, 1);
+  frame.components[0] = componentIn(format, 0, 0, 1);
   if (format.semi_planar) {
     addPlane(chroma_width, chroma_height, 2,
              [&](int c, int channel) { return at(chromaAt(c), (channel == 0) == format.v_first ? 2 : 1); });
-    frame.components[1] = component(1, format.v_first ? 1 : 0, 2);
-    frame.components[2] = component(1, format.v_first ? 0 : 1, 2);
+    frame.components[1] = componentIn(format, 1, format.v_first ? 1 : 0, 2);
+    frame.components[2] = componentIn(format, 1, format.v_first ? 0 : 1, 2);
   } else {
     for (int plane = 1; plane <= 2; ++plane) {
       addPlane(chroma_width, chroma_height, 1, [&](int c, int) { return at(chromaAt(c), plane); });
-      frame.components[static_cast<std::size_t>(plane)] = component(plane, 0, 1);
+      frame.components[static_cast<std::size_t>(plane)] = componentIn(format, plane, 0, 1);
     }
   }
   frame.owner = owner;

@@ -14,6 +14,17 @@
 #include <stdexcept>
 
 namespace relievo::test {
+namespace {
+
+v4l2_capability capabilities() {
+  v4l2_capability is{};
+  std::strcpy(reinterpret_cast<char*>(is.card), "A camera that is not there");
+  is.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+  is.capabilities = is.device_caps | V4L2_CAP_DEVICE_CAPS;
+  return is;
+}
+
+}  // namespace
 
 UmockdevCamera::UmockdevCamera(UMockdevTestbed* bed, int number, CameraKind kind)
     : bed_(bed),
@@ -99,13 +110,9 @@ void UmockdevCamera::answer(UMockdevIoctlClient* client) {
 
 int UmockdevCamera::answerTo(unsigned long request, void* argument) {
   switch (request) {
-    case VIDIOC_QUERYCAP: {
-      auto& is = *static_cast<v4l2_capability*>(argument) = {};
-      std::strcpy(reinterpret_cast<char*>(is.card), "A camera that is not there");
-      is.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-      is.capabilities = is.device_caps | V4L2_CAP_DEVICE_CAPS;
+    case VIDIOC_QUERYCAP:
+      *static_cast<v4l2_capability*>(argument) = capabilities();
       return 0;
-    }
     case VIDIOC_ENUM_FMT: {
       auto& each = *static_cast<v4l2_fmtdesc*>(argument);
       if (each.index >= kind_.formats.size()) return EINVAL;

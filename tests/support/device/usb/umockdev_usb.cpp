@@ -55,6 +55,22 @@ usbdevfs_urb& urbOf(UMockdevIoctlData* data) {
   return *reinterpret_cast<usbdevfs_urb*>(data->data);
 }
 
+// Writes the answer into the memory that the request's argument points to.
+template <class Value>
+void fill(UMockdevIoctlData* argument, const Value& value) {
+  std::memcpy(umockdev_ioctl_data_resolve(argument, 0, sizeof value, nullptr)->data, &value, sizeof value);
+}
+
+// libusb asks a device that was opened by descriptor for its configuration. False for any other control transfer.
+bool answerConfiguration(UMockdevIoctlData* argument) {
+  UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr);
+  const auto& transfer = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
+  constexpr std::uint8_t kGetConfiguration = 8;
+  if (transfer.bRequest != kGetConfiguration) return false;
+  umockdev_ioctl_data_resolve(data, offsetof(usbdevfs_ctrltransfer, data), transfer.wLength, nullptr)->data[0] = 1;
+  return true;
+}
+
 }  // namespace
 
 bool machineIsMocked() {
@@ -131,31 +147,17 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
     if (!reaps || done_.empty()) return complete(-1, ENODEV);
   }
   switch (request) {
-    case USBDEVFS_GET_CAPABILITIES: {
-      UMockdevIoctlData* bits = umockdev_ioctl_data_resolve(argument, 0, sizeof(std::uint32_t), nullptr);
-      const std::uint32_t capabilities = USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
-                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
-      std::memcpy(bits->data, &capabilities, sizeof capabilities);
+    case USBDEVFS_GET_CAPABILITIES:
+      fill(argument, std::uint32_t{USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_BULK_CONTINUATION |
+                                   USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT});
       return complete(0);
-    }
-    case USBDEVFS_CONNECTINFO: {
-      UMockdevIoctlData* info = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_connectinfo), nullptr);
-      const usbdevfs_connectinfo connected{.devnum = 2, .slow = 0};
-      std::memcpy(info->data, &connected, sizeof connected);
+    case USBDEVFS_CONNECTINFO:
+      fill(argument, usbdevfs_connectinfo{.devnum = 2, .slow = 0});
       return complete(0);
-    }
     case USBDEVFS_GET_SPEED:
       return complete(kFullSpeed);
-    case USBDEVFS_CONTROL: {  // libusb asks a device that was opened by descriptor for its configuration
-      UMockdevIoctlData* data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ctrltransfer), nullptr);
-      const auto& transfer = *reinterpret_cast<const usbdevfs_ctrltransfer*>(data->data);
-      constexpr std::uint8_t kGetConfiguration = 8;
-      if (transfer.bRequest != kGetConfiguration) return complete(-1, EPIPE);
-      UMockdevIoctlData* answer =
-          umockdev_ioctl_data_resolve(data, offsetof(usbdevfs_ctrltransfer, data), transfer.wLength, nullptr);
-      answer->data[0] = 1;
-      return complete(1);
-    }
+    case USBDEVFS_CONTROL:
+      return answerConfiguration(argument) ? complete(1) : complete(-1, EPIPE);
     case USBDEVFS_DISCONNECT_CLAIM:
     case USBDEVFS_CLAIMINTERFACE:
     case USBDEVFS_RELEASEINTERFACE:
