@@ -13,6 +13,7 @@
 
 extern "C" {
 #include <libavformat/avformat.h>
+#include <libavutil/opt.h>
 }
 
 namespace relievo::ffmpeg {
@@ -51,28 +52,70 @@ bool endsInZeros(const AVFormatContext& context, std::int64_t bytes) noexcept {
   return readAt(context, bytes - size, last) && std::ranges::all_of(last, [](std::uint8_t byte) { return byte == 0; });
 }
 
-// By the pictures that an AVI file's header counts; 0 for another container. Of a cut file FFmpeg has shortened the
-// stated length by the bytes that are left.
-Duration countedLength(const AVFormatContext& context) noexcept {
+// A container's own sign that its end is missing, and how much at least; 0 without one.
+struct OwnSign {
+  std::string_view container;
+  Duration (*missing)(const AVFormatContext&, const FileEnd::Reached&) noexcept;
+};
+
+// By the pictures that an AVI file's header counts. Of a cut file FFmpeg has shortened the stated length by the bytes
+// that are left.
+Duration uncounted(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
   Duration longest{0};
-  if (context.iformat->name != std::string_view("avi")) return longest;
   for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
     if (kindOf(*stream) != StreamKind::Video) continue;
     longest = std::max(longest, durationFrom(stream->nb_frames, stream->time_base));
   }
-  return longest;
+  const Duration missing = longest - end.latest;
+  return missing > kWholeWithin ? missing : Duration(0);
 }
 
-// Where the file ends at `bytes` within the picture behind `read` of a Y4M film, that picture's time; else 0.
-Duration brokenPicture(const AVFormatContext& context, std::int64_t read, std::int64_t bytes) noexcept {
+// A Y4M file that ends within a picture.
+Duration brokenPicture(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
   constexpr std::string_view kFrame = "FRAME";
   std::array<std::uint8_t, kFrame.size()> begin{};
-  if (context.iformat->name != std::string_view("yuv4mpegpipe") || read <= 0 || read >= bytes) return Duration(0);
-  const auto there = std::min(bytes - read, static_cast<std::int64_t>(begin.size()));
+  if (end.read <= 0 || end.read >= end.bytes) return Duration(0);
+  const auto there = std::min(end.bytes - end.read, static_cast<std::int64_t>(begin.size()));
   const std::span some = std::span(begin).first(static_cast<std::size_t>(there));
-  if (!readAt(context, read, some) || !std::ranges::equal(some, kFrame.substr(0, some.size()))) return Duration(0);
-  return durationFrom(1, context.streams[0]->time_base);
+  if (!readAt(context, end.read, some) || !std::ranges::equal(some, kFrame.substr(0, some.size()))) return Duration(0);
+  return end.picture;
 }
+
+// A transport stream that ends within a packet: ISO/IEC 13818-1, 2.4.3.2. Those of an M2TS file begin with four more
+// bytes. What is no packet may stand behind a whole film.
+Duration brokenPacket(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  constexpr std::uint8_t kSync = 0x47;
+  std::int64_t size = 0;
+  if (av_opt_get_int(context.priv_data, "ts_packetsize", 0, &size) < 0 || size < 188) return Duration(0);
+  const std::int64_t before = size == 192 ? 4 : 0;
+  const std::int64_t rest = end.bytes % size;
+  if (rest <= before) return Duration(0);
+  for (std::int64_t packet = end.bytes - rest; packet >= end.bytes - rest - 2 * size; packet -= size) {
+    std::array<std::uint8_t, 1> byte{};
+    if (!readAt(context, packet + before, byte) || byte[0] != kSync) return Duration(0);
+  }
+  return end.picture;
+}
+
+// An Ogg file whose last page is not the last one of its stream: RFC 3533, 6.
+Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  constexpr std::string_view kPage = "OggS";
+  constexpr std::uint8_t kLast = 4;
+  std::array<std::uint8_t, 65307> tail{};  // the largest page
+  const std::span some =
+      std::span(tail).first(static_cast<std::size_t>(std::min(end.bytes, static_cast<std::int64_t>(tail.size()))));
+  if (!readAt(context, end.bytes - static_cast<std::int64_t>(some.size()), some)) return Duration(0);
+  const auto page = std::ranges::find_end(some, kPage);
+  return page.size() > 0 && some.end() - page.begin() > 5 && (page.begin()[5] & kLast) == 0 ? end.picture : Duration(0);
+}
+
+constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe", brokenPicture},
+                               OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone}};
+
+// Their segments are read one after the other; one that cannot be opened is passed over.
+constexpr std::array<std::string_view, 2> kListed{"dash", "hls"};
+constexpr Duration kBehindBroken = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
+constexpr Duration kUsualPicture = std::chrono::milliseconds(40);   // where its length is unknown
 
 }  // namespace
 
@@ -99,52 +142,80 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
   }
 }
 
-void FileGaps::note(const Packet& packet, Duration length, const std::string& url) {
+bool FileGaps::tellsAll(const AVFormatContext& context) noexcept {
+  return std::ranges::find(kListed, context.iformat->name) != kListed.end();
+}
+
+void FileGaps::begin() noexcept {
+  ends_.clear();
+  missing_.clear();
+}
+
+void FileGaps::note(const Packet& packet, Duration length, bool broken, const std::string& url) {
   if (!packet.dts || length <= Duration(0)) return;
-  const auto end = ends_.try_emplace(packet.stream, *packet.dts).first;
-  const Duration gap = *packet.dts - end->second;
-  if (gap > kWholeWithin && isTold(++gaps_)) {
-    log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be opened", url.c_str(),
-        toSeconds(gap), toSeconds(end->second));
+  auto& [end, broken_until] = ends_.try_emplace(packet.stream, End{*packet.dts, *packet.dts}).first->second;
+  const Duration gap = *packet.dts - end;
+  if (gap > kWholeWithin && (broken || end < broken_until)) {
+    missing_[packet.stream] += gap;
+    if (isTold(++gaps_)) {
+      log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be read", url.c_str(),
+          toSeconds(gap), toSeconds(end));
+    }
   }
-  end->second = *packet.dts + length;
+  end = *packet.dts + length;
+  if (broken) broken_until = end + kBehindBroken;
+}
+
+Duration FileGaps::missing() const noexcept {
+  Duration most{0};
+  for (const auto& [stream, missing] : missing_) most = std::max(most, missing);
+  return most;
 }
 
 void FileEnd::open(const AVFormatContext& context, Duration start) noexcept {
   *this = {};
   start_ = start;
-  bytes_ = bytesOf(context);
+  reached_.bytes = bytesOf(context);
+  reached_.picture = kUsualPicture;
 }
 
 void FileEnd::seek(MediaTime target) noexcept {
-  latest_ = target.time_since_epoch();
+  reached_.latest = target.time_since_epoch();
+  reached_.read = 0;
   missing_ = Duration(0);
-  read_ = 0;
+  sought_ = target > MediaTime{};
+  broken_ = false;
 }
 
-void FileEnd::note(const Packet& packet, Duration length, std::int64_t position) noexcept {
+void FileEnd::note(const Packet& packet, Duration length, bool broken, std::int64_t position) noexcept {
   const auto begin = packet.pts ? packet.pts : packet.dts;
-  if (begin) latest_ = std::max(latest_, begin->time_since_epoch() + length);
-  if (position >= 0) read_ = std::max(read_, position + static_cast<std::int64_t>(packet.bytes));
+  if (begin) reached_.latest = std::max(reached_.latest, begin->time_since_epoch() + length);
+  if (position >= 0) reached_.read = std::max(reached_.read, position + static_cast<std::int64_t>(packet.bytes));
+  if (length > Duration(0)) reached_.picture = length;
+  broken_ = broken;
 }
 
-// A length that the container states counts with a single programme only. A length that FFmpeg took from the last times
-// of a file counts if the file has become shorter since.
+// A length that the container states counts with a single programme only, and of a list only from its beginning on: the
+// times within it may jump. A length that FFmpeg took from the last times of a file counts if the file has become
+// shorter since.
 void FileEnd::reach(const AVFormatContext& context) noexcept {
   const bool one = context.nb_programs < 2;
   const bool stated = context.duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
-  const bool told = one && context.duration > 0 && (stated || bytesOf(context) < bytes_);
-  const Duration end = std::max(told ? lengthOf(context, start_) : Duration(0), countedLength(context));
-  const bool is_multiplex = one && (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
-  missing_ = std::max(end - latest_, is_multiplex ? unread(context) : Duration(0));
-  if (missing_ <= kWholeWithin) missing_ = brokenPicture(context, read_, bytes_);
+  const bool jumps = (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
+  const bool told = one && context.duration > 0 && (stated ? !jumps || !sought_ : bytesOf(context) < reached_.bytes);
+  missing_ = told ? lengthOf(context, start_) - reached_.latest : Duration(0);
+  if (one && jumps) missing_ = std::max(missing_, unread(context));
+  if (missing_ <= kWholeWithin) missing_ = broken_ ? reached_.picture : Duration(0);
+  const auto own = std::ranges::find(kOwnSigns, context.iformat->name, &OwnSign::container);
+  if (own != kOwnSigns.end()) missing_ = std::max(missing_, own->missing(context, reached_));
 }
 
 // The time for which the bytes behind the last packet that were never written would last, at the mean bit rate.
 Duration FileEnd::unread(const AVFormatContext& context) const noexcept {
-  const std::int64_t rest = bytes_ - read_;
-  if (read_ <= 0 || rest < kTailBytes || rest < bytes_ / 50 || !endsInZeros(context, bytes_)) return Duration(0);
-  return fromSeconds(toSeconds(latest_) * static_cast<double>(rest) / static_cast<double>(read_));
+  const auto& [latest, picture, read, bytes] = reached_;
+  const std::int64_t rest = bytes - read;
+  if (read <= 0 || rest < kTailBytes || rest < bytes / 50 || !endsInZeros(context, bytes)) return Duration(0);
+  return fromSeconds(toSeconds(latest) * static_cast<double>(rest) / static_cast<double>(read));
 }
 
 }  // namespace relievo::ffmpeg

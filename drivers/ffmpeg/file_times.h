@@ -28,41 +28,58 @@ class FileTimes {
   Duration mended_by_{0};  // since `begin`
 };
 
-// What is missing within a DASH film: FFmpeg passes over a segment that it cannot open.
+// What is missing within a film: FFmpeg passes over what it cannot read, such as a segment of a list.
 class FileGaps {
  public:
+  // True for a list of segments: its times have gaps only where one of them is passed over.
+  [[nodiscard]] static bool tellsAll(const AVFormatContext& context) noexcept;
   // At the beginning, or after a seek.
-  void begin() noexcept { ends_.clear(); }
-  // Logs a gap before the packet; of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
-  void note(const Packet& packet, Duration length, const std::string& url);
+  void begin() noexcept;
+  // Logs a gap before the packet if the packet or one just before is `broken`: elsewhere a picture may just last longer.
+  // Of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
+  void note(const Packet& packet, Duration length, bool broken, const std::string& url);
+  // Of the stream that lacks most.
+  [[nodiscard]] Duration missing() const noexcept;
 
  private:
-  std::map<int, MediaTime> ends_;  // of each stream's last packet, by decoding time
+  struct End {
+    MediaTime time;
+    MediaTime broken_until;  // by a packet before
+  };
+  std::map<int, End> ends_;  // of each stream's last packet, by decoding time
+  std::map<int, Duration> missing_;
   unsigned gaps_ = 0;
 };
 
 // How much of a film is missing behind what could be read.
 class FileEnd {
  public:
+  struct Reached {
+    Duration latest{0};      // end of all packets read so far, from the start on
+    Duration picture{0};     // the last packet's length
+    std::int64_t read = 0;   // to here, in bytes
+    std::int64_t bytes = 0;  // of the file as it was opened; 0: unknown
+  };
+
   // As the file was opened; `start` is the container's (startOf).
   void open(const AVFormatContext& context, Duration start) noexcept;
   // Call for a seek: what it skips is not missing.
   void seek(MediaTime target) noexcept;
-  // `position` of the packet in the file, in bytes; below 0 if unknown.
-  void note(const Packet& packet, Duration length, std::int64_t position) noexcept;
+  // `broken`: FFmpeg has not found the whole packet. `position` in the file, in bytes; below 0 if unknown.
+  void note(const Packet& packet, Duration length, bool broken, std::int64_t position) noexcept;
   // Call after the last packet, with the container that was passed to `open`, if it has times.
   void reach(const AVFormatContext& context) noexcept;
-  // 0 until the end was reached, for a whole film, and if unknown.
+  // At least; 0 until the end was reached, for a whole film, and if unknown.
   [[nodiscard]] Duration missing() const noexcept { return missing_; }
 
  private:
   [[nodiscard]] Duration unread(const AVFormatContext& context) const noexcept;
 
   Duration start_{0};
-  Duration latest_{0};  // end of all packets read so far, from `start_` on
+  Reached reached_;
+  bool broken_ = false;  // the last packet
+  bool sought_ = false;  // since it was opened, and not to the beginning
   Duration missing_{0};
-  std::int64_t bytes_ = 0;  // 0: unknown
-  std::int64_t read_ = 0;   // to here, in bytes
 };
 
 }  // namespace relievo::ffmpeg

@@ -71,6 +71,7 @@ class FfmpegSource final : public MediaSource {
     earliest_stream_ = earliestStream(context, leading_stream_);
     context_ = std::move(opened->container);
     address_ = std::move(opened->address);
+    continuous_.begin(origin().longest_gap);
     ahead_.clear();
     readStreamTags();
     return {};
@@ -163,7 +164,9 @@ class FfmpegSource final : public MediaSource {
   }
 
   // A subtitle that begins before the sought position is not read, and may be what lasts until the film's end.
-  Duration missingTime() const noexcept override { return sought_ && hasSubtitles() ? Duration(0) : end_.missing(); }
+  Duration missingTime() const noexcept override {
+    return gaps_.missing() + (sought_ && hasSubtitles() ? Duration(0) : end_.missing());
+  }
 
   bool hasSubtitles() const noexcept {
     const std::span streams(context_->streams, context_->nb_streams);
@@ -197,11 +200,21 @@ class FfmpegSource final : public MediaSource {
     out.dts = timeOf(packet->dts, stream);
     if (origin().longest_gap == Duration(0)) times_.mend(out, url_);
     const Duration length = durationFrom(packet->duration, stream.time_base);
-    if (context_->iformat->name == std::string_view("dash")) gaps_.note(out, length, url_);
-    end_.note(out, length, packet->pos);
+    noteLosses(out, length, *packet);
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
     return out;
+  }
+
+  // By times that do not jump, as MediaSource makes them.
+  void noteLosses(Packet out, Duration length, const AVPacket& packet) {
+    const Duration offset = out.dts ? continuous_.offsetFor(out.stream, *out.dts) : Duration(0);
+    if (out.dts) *out.dts += offset;
+    if (out.pts) *out.pts += offset;
+    const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
+    const bool is_flow = address_.flows() || kindOf(*context_->streams[packet.stream_index]) == StreamKind::Subtitle;
+    if (!is_flow) gaps_.note(out, length, broken || FileGaps::tellsAll(*context_), url_);
+    end_.note(out, length, broken, packet.pos);
   }
 
   std::optional<MediaTime> timeOf(std::int64_t time, const AVStream& stream) const noexcept {
@@ -217,6 +230,7 @@ class FfmpegSource final : public MediaSource {
     ahead_.clear();
     times_.begin();
     gaps_.begin();
+    continuous_.begin(origin().longest_gap);
     end_.seek(target);
     const bool to_beginning = target <= MediaTime{};
     sought_ = !to_beginning;
@@ -263,6 +277,7 @@ class FfmpegSource final : public MediaSource {
   bool sought_ = false;  // since it was opened, and not to the beginning
   FileTimes times_;
   FileGaps gaps_;
+  ContinuousTime continuous_;  // where a container's times may jump
   FileEnd end_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
