@@ -21,6 +21,8 @@ struct PictureList {
   std::vector<std::vector<ListedPicture>> lines;  // of one picture each, or of two that belong together
 };
 
+// Whole numbers may be times (clockUnit).
+//
 // Lines of "TIME PICTURE" (`pictures` 1) or "TIME PICTURE TIME PICTURE" (2), parted by blanks, tabs or commas; # begins
 // a comment. Corrupt with the format if a line is anything else, or if there is none; Exhausted beyond a million lines.
 [[nodiscard]] Result<PictureList> parsePictureList(std::string_view text, std::size_t pictures);

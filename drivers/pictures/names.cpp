@@ -11,7 +11,7 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13;
+constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13, kUnixUsDigits = 16, kUnixNsDigits = 19;
 constexpr std::int64_t kMostSeconds = 9'000'000'000;
 
 // A run of digits, or of anything else.
@@ -37,21 +37,15 @@ std::string_view stemOf(std::string_view name) {
   return name.substr(0, name.rfind('.'));
 }
 
-std::optional<std::int64_t> integer(std::string_view text) noexcept {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 std::optional<std::int64_t> scaled(std::string_view digits, std::int64_t ns) noexcept {
-  const auto value = integer(digits);
+  const auto value = integerIn(digits);
   constexpr std::int64_t kMost = kMostSeconds * 1'000'000'000;
   return value && *value <= kMost / ns ? std::optional(*value * ns) : std::nullopt;
 }
 
 // Greater numbers would be times beyond what 64 bits of ns hold.
 std::optional<std::int64_t> countIn(std::string_view digits) noexcept {
-  const auto value = integer(digits);
+  const auto value = integerIn(digits);
   return value && *value <= kMostSeconds ? value : std::nullopt;
 }
 
@@ -62,7 +56,7 @@ std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
     const std::string_view text{runs[i].text.data(), runs[i].text.size() + 1 + runs[i + 2].text.size()};
     if (runs[i].text.size() != kUnixMsDigits) return nanosecondsIn(text);
     const auto milliseconds = nanosecondsIn(text.substr(kUnixMsDigits - 9));  // the leading digits would not fit
-    const auto leading = integer(text.substr(0, kUnixMsDigits - 9));
+    const auto leading = integerIn(text.substr(0, kUnixMsDigits - 9));
     return milliseconds && leading ? std::optional(*leading * 1'000'000'000'000'000 + *milliseconds / 1000)
                                    : std::nullopt;
   }
@@ -73,10 +67,25 @@ std::optional<std::int64_t> secondsIn(const std::vector<Run>& runs) noexcept {
 std::optional<std::int64_t> ticksIn(std::string_view digits) noexcept {
   constexpr std::int64_t kOf1601 = 116'444'736'000'000'000, kOfYear1 = 621'355'968'000'000'000;
   constexpr std::int64_t kMost = 72'000'000'000'000'000;
-  const auto ticks = integer(digits);
+  const auto ticks = integerIn(digits);
   if (!ticks) return std::nullopt;
   const std::int64_t since = *ticks - (*ticks < kOfYear1 ? kOf1601 : kOfYear1);
   return since >= 0 && since < kMost ? std::optional(100 * since) : std::nullopt;
+}
+
+// 20 digits are ns with a zero before them (InteriorNet).
+std::optional<std::int64_t> unixTimeIn(std::string_view digits) noexcept {
+  switch (digits.size()) {
+    case kUnixNsDigits:
+    case kUnixNsDigits + 1:
+      return scaled(digits, 1);
+    case kUnixUsDigits:
+      return scaled(digits, 1000);
+    case kUnixMsDigits:
+      return scaled(digits, 1'000'000);
+    default:
+      return std::nullopt;
+  }
 }
 
 std::optional<std::int64_t> timeIn(std::string_view stem) {
@@ -88,20 +97,7 @@ std::optional<std::int64_t> timeIn(std::string_view stem) {
       runs[4].digits && runs[4].text.size() >= kMilliseconds) {
     return nanosecondsIn({runs[2].text.data(), runs[2].text.size() + 1 + runs[4].text.size()});
   }
-  if (runs.size() == 1 && runs[0].digits) {
-    switch (stem.size()) {
-      case 19:
-        return scaled(stem, 1);
-      case 18:
-        return ticksIn(stem);
-      case 16:
-        return scaled(stem, 1000);
-      case 13:
-        return scaled(stem, 1'000'000);
-      default:
-        return std::nullopt;
-    }
-  }
+  if (runs.size() == 1 && runs[0].digits) return stem.size() == 18 ? ticksIn(stem) : unixTimeIn(stem);
   constexpr std::size_t kRedwoodDigits = 12;
   const bool redwood = runs.size() == 3 && runs[0].digits && runs[1].text == "-" && runs[2].digits;
   return redwood && runs[2].text.size() == kRedwoodDigits ? scaled(runs[2].text, 1000) : std::nullopt;
@@ -151,6 +147,16 @@ std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string
   return readAll(names, [&](std::string_view stem) { return countIn(runsOf(stem)[*place].text); });
 }
 
+std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>& names) {
+  const auto place = countingRun(names);
+  if (!place) return std::nullopt;
+  auto values = readAll(names, [&](std::string_view stem) { return integerIn(runsOf(stem)[*place].text); });
+  const std::int64_t ns = values ? clockUnit(*values) : 0;
+  if (ns == 0) return std::nullopt;
+  for (std::int64_t& value : *values) value *= ns;
+  return values;
+}
+
 std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -162,6 +168,33 @@ std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
 
 }  // namespace
 
+std::optional<std::int64_t> integerIn(std::string_view text) noexcept {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+std::int64_t clockUnit(std::vector<std::int64_t> values) {
+  constexpr std::size_t kFewest = 3;
+  constexpr std::int64_t kUnixMs = 1'000'000'000'000, kUnixUs = 1000 * kUnixMs, kUnixNs = 1000 * kUnixUs;  // 2001
+  constexpr std::int64_t kLeastStepNs = 1'000'000, kLeastStepUs = 10'000, kJitter = 2;
+  std::ranges::sort(values);
+  values.erase(std::ranges::unique(values).begin(), values.end());
+  if (values.empty() || values.front() < 0) return 0;
+  std::int64_t ns = 0;
+  if (values.front() >= kUnixMs) {
+    ns = values.front() >= kUnixNs ? 1 : values.front() >= kUnixUs ? 1000 : 1'000'000;
+  } else if (values.size() >= kFewest) {
+    std::vector<std::int64_t> steps(values.size());
+    std::adjacent_difference(values.begin(), values.end(), steps.begin());
+    steps.erase(steps.begin());
+    std::ranges::sort(steps);
+    const bool regular = steps[(steps.size() - 1) / 2] / kJitter <= steps.front();  // the numbers of photos are not
+    if (regular) ns = steps.front() >= kLeastStepNs ? 1 : steps.front() >= kLeastStepUs ? 1000 : 0;
+  }
+  return ns > 0 && values.back() <= kMostSeconds * (1'000'000'000 / ns) ? ns : 0;
+}
+
 std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {
   constexpr std::size_t kNsDigits = 9;
   const std::size_t dot = std::min(seconds.find('.'), seconds.size());
@@ -170,7 +203,7 @@ std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {
   std::string_view part = dot < seconds.size() ? seconds.substr(dot + 1) : "0";
   if (part.empty() || part.find_first_not_of("0123456789") != part.npos) return std::nullopt;
   part = part.substr(0, kNsDigits);
-  std::int64_t ns = *integer(part);
+  std::int64_t ns = *integerIn(part);
   for (std::size_t i = part.size(); i < kNsDigits; ++i) ns *= 10;
   return *whole + ns;
 }
@@ -178,6 +211,7 @@ std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {
 NameValues valuesOf(const std::vector<std::string>& names) {
   if (names.empty()) return {};
   if (auto times = readAll(names, timeIn)) return {NameKind::Seconds, std::move(*times)};
+  if (auto times = clockIn(names)) return {NameKind::Seconds, std::move(*times)};
   if (auto numbers = numbersIn(names)) return {NameKind::Numbers, std::move(*numbers)};
   return {NameKind::Ranks, ranksOf(names)};
 }

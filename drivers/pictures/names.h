@@ -13,6 +13,13 @@ namespace relievo::pictures {
 // "1305031102.1753" -> nanoseconds, exactly: no floating point. nullopt for anything else, and beyond 9e9 seconds.
 [[nodiscard]] std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept;
 
+// "40" -> 40. nullopt for anything else, and beyond 64 bits.
+[[nodiscard]] std::optional<std::int64_t> integerIn(std::string_view text) noexcept;
+
+// The ns of a unit if the numbers of one series are times: ms, us or ns since 1970 after 2001, or at least three
+// numbers in regular steps of a million (ns) or ten thousand (us), as no numbers have that count pictures. Else 0.
+[[nodiscard]] std::int64_t clockUnit(std::vector<std::int64_t> values);
+
 enum class NameKind : std::uint8_t {
   Seconds,  // times, in ns
   Numbers,  // numbers that count the pictures
@@ -26,6 +33,7 @@ struct NameValues {
 // `names` are file names without folders, of one series. Times are
 //   1305031102.175304.png            seconds: the whole name, or nine digits and more with a fraction anywhere in it
 //   1403636579763555584.png          19 digits are ns, 16 us, 13 ms since 1970
+//   40000000.png, 80000000.png, ..   ns from the start if a million and more apart, us if ten thousand
 //   0000012-000000400431.png         a number and 12 digits of us (Redwood)
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
 [[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);

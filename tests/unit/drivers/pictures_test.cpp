@@ -8,8 +8,6 @@
 #include <fstream>
 
 #include "drivers/pictures/layouts.h"
-#include "drivers/pictures/lists.h"
-#include "drivers/pictures/names.h"
 #include "drivers/pictures/pictures.h"
 #include "tests/support/film/clip_maker.h"
 
@@ -17,72 +15,11 @@ namespace relievo {
 namespace {
 
 using namespace std::chrono_literals;
-using pictures::NameKind;
-using pictures::valuesOf;
 using test::TemporaryFolder;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-// These names hold these times, in ns.
-void expectMoments(const std::vector<std::string>& names, const std::vector<std::int64_t>& ns) {
-  const auto told = valuesOf(names);
-  EXPECT_EQ(told.kind, NameKind::Seconds) << names[0];
-  EXPECT_EQ(told.values, ns) << names[0];
-}
-
-TEST(PictureNames, SecondsAreExact) {
-  expectMoments({"1305031102.175304.png", "1305031102.2.png"}, {1305031102175304000, 1305031102200000000});
-  expectMoments({"d-1294886362.665769-3143787185.pgm", "d-1294886362.793814-3151264321.pgm"},
-                {1294886362665769000, 1294886362793814000});
-  expectMoments({"1403636579763555584.png"}, {1403636579763555584});
-  expectMoments({"1403636579763555.png"}, {1403636579763555000});
-  expectMoments({"1403636579763.png"}, {1403636579763000000});
-  expectMoments({"0000002-000000033369.jpg", "0000001-000000000000.jpg"}, {33369000, 0});
-}
-
-TEST(PictureNames, ARecordingsNumberMayStandBeforeItsSeconds) {
-  expectMoments({"41069021_305.377.png", "41069021_306.010.png"}, {305377000000, 306010000000});  // ARKitScenes
-}
-
-// RealSense's rs-convert: milliseconds since 1970 with a fraction. HoloLens: 100 ns since 1601; .NET: since the year 1.
-// 2021-06-30 20:05:40.3874938 is 1625083540.3874938 s after 1970.
-TEST(PictureNames, OtherClocksCountAsWell) {
-  expectMoments({"a_Depth_1625083540387.49380000000000.png", "a_Depth_1625083540420.50000000000000.png"},
-                {1625083540387493800, 1625083540420500000});
-  expectMoments({"132695571403874938.pgm", "132695571405874938.pgm"}, {1625083540387493800, 1625083540587493800});
-  expectMoments({"637606803403874938.pgm"}, {1625083540387493800});
-}
-
-TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {
-  const auto scene = valuesOf({"scene_1_10.png", "scene_1_9.png"});
-  EXPECT_EQ(scene.kind, NameKind::Numbers);
-  EXPECT_THAT(scene.values, ElementsAre(10, 9));
-  EXPECT_THAT(valuesOf({"frame-000005.color.png"}).values, ElementsAre(5));
-  const auto mixed = valuesOf({"b10.png", "a.png", "b9.png"});
-  EXPECT_EQ(mixed.kind, NameKind::Ranks);
-  EXPECT_THAT(mixed.values, ElementsAre(2, 0, 1)) << "in natural order";
-  EXPECT_EQ(valuesOf({"1.png", "01.png"}).kind, NameKind::Ranks) << "one number twice";
-}
-
-TEST(PictureLists, OrderCommentsAndWhatIsNone) {
-  const auto list = pictures::parsePictureList("# a comment\n\n2.5 depth/a.png 2.625 rgb/a.png # more\r\n", 2);
-  ASSERT_TRUE(list);
-  EXPECT_FALSE(list->numbers);
-  ASSERT_EQ(list->lines.size(), 1u);
-  EXPECT_EQ(list->lines[0][0].name, "depth/a.png");
-  EXPECT_EQ(list->lines[0][1].value, 2625000000);
-  const auto icl = pictures::parsePictureList("1 depth/1.png 1 rgb/1.png\n2 depth/2.png 2 rgb/2.png\n", 2);
-  ASSERT_TRUE(icl);
-  EXPECT_TRUE(icl->numbers);
-  EXPECT_EQ(icl->lines[1][0].value, 2);
-  for (const char* none :
-       {"", "# nothing\n", "1 a.png\n", "1 a.png 2 b.txt\n", "x a.png 2 b.png\n", "-1 a.png 2 b.png\n",
-        "1 a.png 2 b.png 3\n", "1e3 a.png 2 b.png\n", "99999999999 a.png 2 b.png\n", "1. a.png 1. b.png\n"}) {
-    EXPECT_FALSE(pictures::parsePictureList(none, 2)) << none;
-  }
-}
 
 TEST(PictureLayouts, NyusBytesAreSwappedOnlyIfThatMakesThemSound) {
   std::vector<std::uint8_t> pgm{'P', '5', '\n', '2',  ' ',  '1',  '\n', '6', '5',
@@ -171,14 +108,6 @@ TEST_F(Pictures, ANumbersTimeIsExactHoweverFarItIs) {
   ASSERT_TRUE(source->open(folder_ / "%d.png"));
   ASSERT_TRUE(source->read());
   EXPECT_EQ((*source->read())->pts, MediaTime(3'333'333'333'333ns)) << "100,000 / 30 s, not 100,000 rounded periods";
-}
-
-// At 25 pictures a second the greater number would be 8.9e16 s after the other: 64 bits of ns hold 9.2e9 s.
-TEST(PictureNames, GreatNumbersCountNoPictures) {
-  EXPECT_EQ(valuesOf({"9000000000.png", "1.png"}).kind, NameKind::Numbers);
-  const auto great = valuesOf({"2222222222222222222.png", "1.png"});
-  EXPECT_EQ(great.kind, NameKind::Ranks);
-  EXPECT_EQ(great.values, (std::vector<std::int64_t>{1, 0}));
 }
 
 TEST_F(Pictures, NaturalOrderWhereNamesAreNoNumbers) {

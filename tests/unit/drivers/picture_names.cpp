@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the names of pictures, and lists of them, say about their times.
+#include "drivers/pictures/names.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drivers/pictures/lists.h"
+
+namespace relievo {
+namespace {
+
+using pictures::NameKind;
+using pictures::valuesOf;
+using testing::ElementsAre;
+
+// The names tell moments, in ns.
+void expectMoments(const std::vector<std::string>& names, const std::vector<std::int64_t>& ns) {
+  const auto told = valuesOf(names);
+  EXPECT_EQ(told.kind, NameKind::Seconds) << names[0];
+  EXPECT_EQ(told.values, ns) << names[0];
+}
+
+TEST(PictureNames, SecondsAreExact) {
+  expectMoments({"1305031102.175304.png", "1305031102.2.png"}, {1305031102175304000, 1305031102200000000});
+  expectMoments({"d-1294886362.665769-3143787185.pgm", "d-1294886362.793814-3151264321.pgm"},
+                {1294886362665769000, 1294886362793814000});
+  expectMoments({"1403636579763555584.png"}, {1403636579763555584});
+  expectMoments({"1403636579763555.png"}, {1403636579763555000});
+  expectMoments({"1403636579763.png"}, {1403636579763000000});
+  expectMoments({"0000002-000000033369.jpg", "0000001-000000000000.jpg"}, {33369000, 0});
+}
+
+TEST(PictureNames, ARecordingsNumberMayStandBeforeItsSeconds) {
+  expectMoments({"41069021_305.377.png", "41069021_306.010.png"}, {305377000000, 306010000000});  // ARKitScenes
+}
+
+// RealSense's rs-convert: milliseconds since 1970 with a fraction. HoloLens: 100 ns since 1601; .NET: since the year 1.
+// 2021-06-30 20:05:40.3874938 is 1625083540.3874938 s after 1970.
+TEST(PictureNames, OtherClocksCountAsWell) {
+  expectMoments({"a_Depth_1625083540387.49380000000000.png", "a_Depth_1625083540420.50000000000000.png"},
+                {1625083540387493800, 1625083540420500000});
+  expectMoments({"132695571403874938.pgm", "132695571405874938.pgm"}, {1625083540387493800, 1625083540587493800});
+  expectMoments({"637606803403874938.pgm"}, {1625083540387493800});
+}
+
+// InteriorNet; EuRoC's recorders. Numbers of photos are far apart, too, but not regularly.
+TEST(PictureNames, NumbersThatAreFarApartAreNanosecondsOrMicroseconds) {
+  expectMoments({"00000000000040000000.png", "00000000000000000000.png"}, {40000000, 0});
+  expectMoments({"40000000.png", "120000000.png", "80000000.png"}, {40000000, 120000000, 80000000});
+  expectMoments({"cam_33333.png", "cam_66667.png", "cam_166667.png"}, {33333000, 66667000, 166667000});
+  expectMoments({"rgb_1403636579763555584.png", "rgb_1403636579813555456.png"},
+                {1403636579763555584, 1403636579813555456});
+  EXPECT_EQ(valuesOf({"0.png", "1000.png", "2000.png"}).kind, NameKind::Numbers);
+  EXPECT_EQ(valuesOf({"397133.png", "37777.png", "252219.png", "87038.png"}).kind, NameKind::Numbers);
+}
+
+TEST(PictureLists, WholeNumbersMayBeTimes) {
+  const auto timeOf = [](const char* text) {
+    const auto list = pictures::parsePictureList(text, 1);
+    return list && !list->numbers ? list->lines.back().front().value : -1;
+  };
+  EXPECT_EQ(timeOf("1403636579763555584 a.png\n1403636579813555456 b.png\n"), 1403636579813555456);
+  EXPECT_EQ(timeOf("1403636579763 a.png\n1403636579813 b.png\n"), 1403636579813000000);
+  EXPECT_EQ(timeOf("0 a.png\n40000000 b.png\n120000000 c.png\n"), 120000000);
+  EXPECT_EQ(timeOf("0 a.png\n40000.0 b.png\n80000 c.png\n"), 80000000);
+  EXPECT_EQ(timeOf("7 a.png\n8.5 b.png\n9 c.png\n"), 9000000000) << "seconds";
+  EXPECT_EQ(timeOf("7 a.png\n8 b.png\n9 c.png\n"), -1) << "numbers";
+}
+
+TEST(PictureNames, TheOnlyRunOfDigitsThatDiffersIsTheNumber) {
+  const auto scene = valuesOf({"scene_1_10.png", "scene_1_9.png"});
+  EXPECT_EQ(scene.kind, NameKind::Numbers);
+  EXPECT_THAT(scene.values, ElementsAre(10, 9));
+  EXPECT_THAT(valuesOf({"frame-000005.color.png"}).values, ElementsAre(5));
+  const auto mixed = valuesOf({"b10.png", "a.png", "b9.png"});
+  EXPECT_EQ(mixed.kind, NameKind::Ranks);
+  EXPECT_THAT(mixed.values, ElementsAre(2, 0, 1)) << "in natural order";
+  EXPECT_EQ(valuesOf({"1.png", "01.png"}).kind, NameKind::Ranks) << "one number twice";
+}
+
+TEST(PictureLists, OrderCommentsAndWhatIsNone) {
+  const auto list = pictures::parsePictureList("# a comment\n\n2.5 depth/a.png 2.625 rgb/a.png # more\r\n", 2);
+  ASSERT_TRUE(list);
+  EXPECT_FALSE(list->numbers);
+  ASSERT_EQ(list->lines.size(), 1u);
+  EXPECT_EQ(list->lines[0][0].name, "depth/a.png");
+  EXPECT_EQ(list->lines[0][1].value, 2625000000);
+  const auto icl = pictures::parsePictureList("1 depth/1.png 1 rgb/1.png\n2 depth/2.png 2 rgb/2.png\n", 2);
+  ASSERT_TRUE(icl);
+  EXPECT_TRUE(icl->numbers);
+  EXPECT_EQ(icl->lines[1][0].value, 2);
+  for (const char* none :
+       {"", "# nothing\n", "1 a.png\n", "1 a.png 2 b.txt\n", "x a.png 2 b.png\n", "-1 a.png 2 b.png\n",
+        "1 a.png 2 b.png 3\n", "1e3 a.png 2 b.png\n", "99999999999 a.png 2 b.png\n", "1. a.png 1. b.png\n"}) {
+    EXPECT_FALSE(pictures::parsePictureList(none, 2)) << none;
+  }
+}
+
+// At 25 pictures a second the greater number would be 8.9e16 s after the other: 64 bits of ns hold 9.2e9 s.
+TEST(PictureNames, GreatNumbersCountNoPictures) {
+  EXPECT_EQ(valuesOf({"9000000000.png", "1.png"}).kind, NameKind::Numbers);
+  const auto great = valuesOf({"2222222222222222222.png", "1.png"});
+  EXPECT_EQ(great.kind, NameKind::Ranks);
+  EXPECT_EQ(great.values, (std::vector<std::int64_t>{1, 0}));
+}
+
+}  // namespace
+}  // namespace relievo
