@@ -36,6 +36,9 @@ bool holdsOne(const std::vector<std::string>& words, const std::array<std::strin
   return std::ranges::any_of(words, [&](const auto& word) { return std::ranges::find(known, word) != known.end(); });
 }
 
+// Depth in the colour's view, where both are there (RealSense, OpenLORIS, ROS, Azure Kinect).
+constexpr std::array<std::string_view, 3> kInColorsView{"aligned", "registered", "transformed"};
+
 // NYU's raw files: "d-1294886362.665769-3143787185.pgm".
 bool beginsWith(std::string_view name, char letter) {
   return name.size() > 2 && name[0] == letter && name[1] == '-' &&
@@ -56,8 +59,10 @@ std::string bestOf(const std::vector<std::string>& names, Role role) {
   std::ranges::copy_if(names, std::back_inserter(found), [role](const auto& name) { return roleOf(name) == role; });
   if (found.empty()) return "";
   return *std::ranges::min_element(found, [](const std::string& a, const std::string& b) {
-    const std::size_t words_a = wordsOf(a).size(), words_b = wordsOf(b).size();
-    return words_a != words_b ? words_a < words_b : naturalLess(a, b);
+    const auto words_a = wordsOf(a), words_b = wordsOf(b);
+    const bool aligned_a = holdsOne(words_a, kInColorsView), aligned_b = holdsOne(words_b, kInColorsView);
+    if (aligned_a != aligned_b) return aligned_a;
+    return words_a.size() != words_b.size() ? words_a.size() < words_b.size() : naturalLess(a, b);
   });
 }
 

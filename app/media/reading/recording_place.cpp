@@ -130,7 +130,8 @@ bool isRawNyu(std::string_view stem) {
 
 bool isTum(const fs::path& path, const fs::path& folder) {
   const fs::path above = folder.parent_path();
-  return isSeconds(path.stem().string()) || isRegularFile(above / "associations.txt") ||
+  // Beside color/ the pictures tell the unit: recorders in mm name them so (OpenLORIS, ROS).
+  return (isSeconds(path.stem().string()) && !isFolder(above / "color")) || isRegularFile(above / "associations.txt") ||
          (isRegularFile(above / "depth.txt") && isRegularFile(above / "rgb.txt"));
 }
 

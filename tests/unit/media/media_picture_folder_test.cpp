@@ -97,8 +97,13 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
   EXPECT_EQ(unit("n"), 0.5);
   EXPECT_EQ(unit("i"), 0.125);
   EXPECT_EQ(unit("f"), 0.1);
+  picture("k/color/1560000072.05.ppm", 1), picture("k/depth/1560000072.05.pgm", 2568);
+  EXPECT_NE(unit("k"), 0.2) << "not TUM's, whose colour is in rgb/";
   picture("l/color/1560000072.05.ppm", 1), picture("l/aligned_depth/1560000072.05.pgm", 2568);
   EXPECT_EQ(unit("l"), 1) << "OpenLORIS";
+  picture("l/depth/1560000072.05.pgm", 2000), picture("l/depth/1560000072.08.pgm", 2000);
+  EXPECT_EQ(unit("l"), 1) << "the depth that lies in the colour's view is taken";
+  EXPECT_EQ(story({.url = folder_ / "l"}), "0 1:2568");
 }
 
 // Stray Scanner: times that are no multiples of a period.
