@@ -87,6 +87,14 @@ bool isRawKinect(const CodeCount& count) {
          count.share(kRawLowest, kRawHighest) > 0.05;
 }
 
+// A Kinect's codes of a view without a hole are also what near distances in mm may be.
+std::string otherCodes(const KnownKind& kind, const CodeCount& count) {
+  const CodeCount all = count.together();
+  const bool like_raw = all.share(kRawLowest, kRawHighest) == 1;
+  return kind.name == std::string_view("mm") && like_raw ? "if they are a first Kinect's raw codes: --as kinect-raw"
+                                                         : "";
+}
+
 bool isDistances(const CodeCount& count) {
   if (count.share(1, kTop - 1) == 0) return false;
   const std::uint32_t highest = count.quantile(1 - kOutliers, 1, kTop - 1);
@@ -166,7 +174,8 @@ std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
 // What else codes may be whose kind only the pictures show.
 std::string otherKinds(const KnownKind& kind, const CodeCount& count) {
   if (kind.inverse.mm > 0 || isTerrain(kind.order)) return "";
-  return both(both(otherUnit(kind, count), otherLaw(kind, count)), both(otherEnd(count), kAnyUnit));
+  const std::string others = both(both(otherUnit(kind, count), otherLaw(kind, count)), otherCodes(kind, count));
+  return both(others, both(otherEnd(count), kAnyUnit));
 }
 
 // Other recorders, too, make folders that look like TUM's.
@@ -222,7 +231,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (isRawKinect(of_ordered)) return findKind("nyu-raw");
     if (isMeasured(of_ordered) && isDistances(of_ordered)) return findKind("mm-swapped");
   }
-  if (isRawKinect(count)) return findKind("kinect-raw");
+  if (isRawKinect(count.together())) return findKind("kinect-raw");
   if (isMeasured(count) && hasConfidence(depth)) return findKind("depth16");
   if (isMeasured(count) && hasPlayers(count)) return findKind("kinect-players");
   if (isMeasured(count) && isRotated(count)) return findKind("sun");

@@ -139,6 +139,19 @@ TEST(OddCodes, TaskonomysNamesSay512CodesAMetre) {
   expectScene(openFilm({.url = path}), 1, {.share = 0.002});
 }
 
+// 300 to 1084 are a Kinect's raw codes, and what mm of a near view may be, too.
+TEST(OddCodes, AKinectsRawCodesWithoutAHoleAreOffered) {
+  const auto offersOf = [](double first, double step) {
+    TemporaryFolder folder;
+    makeClip(folder / "a.png",
+             {track("png", "gray16be", [=](int, int c, int r, int) { return rounded(first + step * (c + r)); })});
+    const auto offers = openFilm({.url = folder / "a.png"}).info.reading.offers;
+    return offers.empty() ? "" : offers.front();
+  };
+  EXPECT_NE(offersOf(450, 1).find("--as kinect-raw"), std::string::npos);
+  EXPECT_EQ(offersOf(450, 4).find("--as kinect-raw"), std::string::npos) << "farther than a Kinect's codes";
+}
+
 // A network's 16 bits from 0 to 65535 in a file without a telling name.
 TEST(OddCodes, GrayOfMoreThanEightBitsIsDepth) {
   TemporaryFolder folder;
