@@ -22,6 +22,12 @@ std::string placeOf(const std::string& path) {
   return path.substr(0, path.rfind('/') - folderIn(path).size());
 }
 
+// "1305031102.160407.png". Whoever counts in other units of time, as Redwood does, stores mm.
+bool isSeconds(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1), stem = name.substr(0, name.rfind('.'));
+  return stem.find('.') != stem.npos && stem.find_first_not_of("0123456789.") == stem.npos;
+}
+
 // The first depth_scale in scene_camera.json; 0 if there is none.
 double bopScaleMm(const std::string& place) {
   const auto text = readWholeFile(place + "scene_camera.json", FileSize::Recording, "");
@@ -51,9 +57,9 @@ std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
 
 }  // namespace
 
-std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth, bool timed) {
+std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth, bool listed) {
   if (folderIn(depth) != "depth" || folderIn(color) != "rgb" || endingOf(depth) != "png") return {};
-  if (timed) return {{"DEPTH_UNIT", "0.2"}, {"DEPTH_INVALID", "0"}};
+  if (listed || isSeconds(depth)) return {{"DEPTH_UNIT", "0.2"}, {"DEPTH_INVALID", "0"}};
   const double scale = bopScaleMm(placeOf(depth));
   if (scale == 0) return {};
   return {{"DEPTH_UNIT", print("%.9g", scale)}, {"DEPTH_INVALID", "0"}};

@@ -10,10 +10,10 @@
 namespace relievo::pictures {
 
 // Tags of the depth's meaning, by the first pictures' paths.
-//   TUM, ICL-NUIM   rgb/ and depth/ with times or a list (`timed`), PNG: 5000 codes a metre, 0 is a hole
+//   TUM, ICL-NUIM   rgb/ and depth/ with seconds in names or a list (`listed`), PNG: 5000 codes a metre, 0 is a hole
 //   BOP             scene_camera.json beside rgb/ and depth/: its depth_scale, in mm
 [[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth,
-                                                             bool timed);
+                                                             bool listed);
 
 // "d-1294886362.665769-3143787185.pgm": NYU's raw depth.
 [[nodiscard]] bool isNyuDepth(const std::string& path);

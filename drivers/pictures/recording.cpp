@@ -192,7 +192,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.views = found.views;
   if (both && !found.views)
     recording.depth_tags =
-        depthTagsOf(recording.color.front().path, recording.depth.front().path, !counted || found.paired);
+        depthTagsOf(recording.color.front().path, recording.depth.front().path, !found.color_values.empty());
   if (found.left_out > 0) recording.notes.push_back(print("%zu other pictures are left out", found.left_out));
   return recording;
 }

@@ -135,6 +135,13 @@ bool isTum(const fs::path& path, const fs::path& folder) {
          (isRegularFile(above / "depth.txt") && isRegularFile(above / "rgb.txt"));
 }
 
+// Replica as NICE-SLAM renders it: "results/frame000000.jpg", "results/depth000000.png", "traj.txt".
+bool isNiceSlam(const fs::path& path, const fs::path& folder) {
+  const std::string stem = path.stem().string();
+  return folder.filename() == "results" && stem.starts_with("depth") && hasDigits(std::string_view(stem).substr(5)) &&
+         isRegularFile(folder.parent_path() / "traj.txt");
+}
+
 RecordingPlace named(const char* kind, const char* sign) {
   return {findKind(kind), CalibrationOrigin::Name, {}, print("the name has %s", sign)};
 }
@@ -186,6 +193,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
   for (const Sign& sign : kSigns) {
     if (words.find(sign.word) != std::string::npos) return named(sign.kind, sign.word);
   }
+  if (isNiceSlam(path, folder)) return named("replica", "NICE-SLAM's form results/depth000000 beside traj.txt");
   if (isTum(path, folder)) return {findKind("tum"), CalibrationOrigin::Name, {}, "names and lists as TUM's"};
   return {};
 }

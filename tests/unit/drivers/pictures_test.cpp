@@ -161,6 +161,19 @@ TEST_F(Pictures, NumbersPairColourAndDepthInOneFolderAndInTwo) {
   EXPECT_THAT(scan.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
 }
 
+// Redwood's times are no seconds, and its codes are mm.
+TEST_F(Pictures, SecondsAndListsAloneSpeakForTumsUnit) {
+  const auto saysUnit = [&](const std::string& name, const std::string& time) {
+    file(name + "/rgb/" + time + ".jpg"), file(name + "/depth/" + time + ".png");
+    return read(folder_ / name).streams.at(1).tags.contains("DEPTH_UNIT");
+  };
+  EXPECT_TRUE(saysUnit("t", "1305031102.160407"));
+  EXPECT_FALSE(saysUnit("r", "0000001-000000033369"));
+  EXPECT_FALSE(saysUnit("n", "1403636579763555584"));
+  file("n/associations.txt", "1 rgb/1403636579763555584.jpg 1 depth/1403636579763555584.png\n");
+  EXPECT_TRUE(saysUnit("n", "1403636579763555584")) << "a list";
+}
+
 // Kubric's layers in one folder; Sintel's and HoloLens' folders.
 TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   for (const char* layer : {"rgba", "forward_flow", "backward_flow", "object_coordinates", "segmentation", "normal"}) {

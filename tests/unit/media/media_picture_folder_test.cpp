@@ -97,6 +97,9 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
   EXPECT_EQ(unit("n"), 0.5);
   EXPECT_EQ(unit("i"), 0.125);
   EXPECT_EQ(unit("f"), 0.1);
+  picture("s/results/frame000000.ppm", 1), picture("s/results/depth000000.pgm", 13107);
+  std::ofstream(folder_ / "s/traj.txt") << "1 0 0 0\n";
+  EXPECT_EQ(unit("s"), 0.15259) << "NICE-SLAM's Replica without its cam_params.json";
   picture("k/color/1560000072.05.ppm", 1), picture("k/depth/1560000072.05.pgm", 2568);
   EXPECT_NE(unit("k"), 0.2) << "not TUM's, whose colour is in rgb/";
   picture("l/color/1560000072.05.ppm", 1), picture("l/aligned_depth/1560000072.05.pgm", 2568);
