@@ -175,6 +175,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"icl_nuim", "icl"},
       {"rgbd_dataset_freiburg", "tum"},
       {"aligned_depth", "mm"},  // RealSense's; OpenLORIS has TUM's layout
+      {".geometric.png", "co3d"},
       {".depth.png", "mm"},
       {"/depth_bw/", "near-dark"},
       {"/mist/", "near-dark"},  // Blender's pass: from 0 at its start to 1 in the distance

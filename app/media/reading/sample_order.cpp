@@ -141,8 +141,18 @@ std::uint32_t codeOf(float metres) noexcept {
              : kTop;
 }
 
+float halfOf(std::uint32_t bits) noexcept {
+  constexpr int kMantissaBits = 10, kBias = 15;
+  constexpr std::uint32_t kInfinite = 31, kOne = 1u << kMantissaBits;
+  const std::uint32_t exponent = bits >> kMantissaBits, mantissa = bits & (kOne - 1);  // the sign counts as too large
+  if (exponent >= kInfinite) return 0;
+  const auto significand = static_cast<float>(exponent == 0 ? mantissa : kOne + mantissa);
+  return std::ldexp(significand, std::max(1, static_cast<int>(exponent)) - kBias - kMantissaBits);
+}
+
 std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
   if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
+  if (order == SampleOrder::HalfFloat) return codeOf(halfOf(grayAt(frame, c, r)));
   if (isTerrain(order)) return terrainAt(frame, c, r, order);
   if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
   const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);

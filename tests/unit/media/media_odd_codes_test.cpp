@@ -139,6 +139,22 @@ TEST(OddCodes, TaskonomysNamesSay512CodesAMetre) {
   expectScene(openFilm({.url = path}), 1, {.share = 0.002});
 }
 
+// CO3D and Dynamic Replica: the 16 bits are those of a half float.
+TEST(OddCodes, GeometricPngsHoldHalfFloats) {
+  TemporaryFolder folder;
+  const auto half_of = [](double value) {
+    int exponent = 0;
+    const double significand = std::frexp(value, &exponent);  // .5 to 1
+    return rounded(2048 * significand) - 1024 + (static_cast<std::uint32_t>(exponent + 14) << 10);
+  };
+  const std::string path = folder / "frame000001.jpg.geometric.png";
+  makeClip(path, {track("png", "gray16be", [&](int, int c, int r, int) {
+             const double mm = distanceMm(c, r);
+             return mm == 0 ? 0 : half_of(mm / 250);
+           })});
+  expectScene(openFilm({.url = path}), 4, {.share = 0.003});
+}
+
 // 300 to 1084 are a Kinect's raw codes, and what mm of a near view may be, too.
 TEST(OddCodes, AKinectsRawCodesWithoutAHoleAreOffered) {
   const auto offersOf = [](double first, double step) {
