@@ -95,6 +95,7 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #endif
 #ifdef RELIEVO_SCAN
   if (isScan(url)) return makeScanSource();
+  if (isDepthBin(url)) return makeDepthBinSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();

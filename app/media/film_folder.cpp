@@ -44,7 +44,8 @@ std::string depthOf(const std::string& film, const std::vector<std::string>& nam
 // Films, and files that hold a series of pictures.
 bool mayHoldFilm(const std::string& name) {
   const std::string ending = endingOf(name);
-  return mediaKindOf(name) == MediaKind::Film || ending == "npy" || ending == "tif" || ending == "tiff";
+  const bool scan = name == "depth.bin";  // ScanNet++
+  return scan || mediaKindOf(name) == MediaKind::Film || ending == "npy" || ending == "tif" || ending == "tiff";
 }
 
 // The depth of the only film of a folder: a file that holds it, or the pattern of its pictures; empty if there is none.

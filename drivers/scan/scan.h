@@ -22,4 +22,11 @@ namespace relievo {
 // frame and says so. Refused: depth compressed by the Occipital codec, and scans without a whole frame.
 [[nodiscard]] std::unique_ptr<MediaSource> makeScanSource();
 
+// True for a regular file of the name depth.bin: ScanNet++'s depth of an iPhone, without its colour.
+[[nodiscard]] bool isDepthBin(const std::string& path);
+
+// One stream, as a scan's depth; 60 pictures a second (`counted`) unless a rate is set. An older file, which is one
+// stream, has no duration, since nobody has counted its pictures; to seek in it unpacks what lies between.
+[[nodiscard]] std::unique_ptr<MediaSource> makeDepthBinSource();
+
 }  // namespace relievo
