@@ -18,10 +18,11 @@ bool Player::obeySound(const PlayerCommand& command, MonotonicTime now) {
       return true;
     case PlayerVerb::AudioTrack: {
       const std::size_t count = film_.info().sounds.size();
-      const std::size_t next = film_.info().sound.value_or(count) + 1;
       if (count == 0) return true;
-      chooseTracks(command.value > 0 ? static_cast<std::size_t>(command.value) - 1 : next % count, film_.info().words,
-                   now);
+      std::size_t next = (film_.info().sound.value_or(count - 1) + 1) % count;
+      if (command.value > 0) next = static_cast<std::size_t>(command.value) - 1;
+      if (command.value == kPreviousTrack) next = (film_.info().sound.value_or(0) + count - 1) % count;
+      chooseTracks(next, film_.info().words, now);
       return true;
     }
     case PlayerVerb::AudioDelayBy:
@@ -67,16 +68,17 @@ void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::s
   if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
 }
 
-// After the last track comes none. Where the present one is hidden, it is shown again.
+// After the last track, and before the first, comes none. Where the present one is hidden, it is shown again.
 void Player::nextWords(double number, MonotonicTime now) {
   const FilmInfo& info = film_.info();
-  std::optional<std::size_t> next;
+  const std::size_t count = info.subtitles.size(), none = count;
+  const bool back = number == kPreviousTrack;
+  std::size_t next = none;
   if (number > 0) next = static_cast<std::size_t>(number) - 1;
-  else if (number == 0 && !info.words && !info.subtitles.empty()) next = 0;
-  else if (number == 0 && info.words && !words_shown_) next = info.words;
-  else if (number == 0 && info.words && *info.words + 1 < info.subtitles.size()) next = *info.words + 1;
-  chooseTracks(info.sound, next, now);
-  words_shown_ = next.has_value();
+  else if ((number == 0 || back) && info.words && !words_shown_) next = *info.words;
+  else if (number == 0 || back) next = (info.words.value_or(none) + (back ? count : 1)) % (count + 1);
+  chooseTracks(info.sound, next == none ? std::nullopt : std::optional(next), now);
+  words_shown_ = next != none;
   screen_.subtitles().show(words_shown_);
 }
 

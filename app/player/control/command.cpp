@@ -38,10 +38,11 @@ std::optional<PlayerCommand> timeIn(std::string_view text) {
   return PlayerCommand{PlayerVerb::SeekShare, *value / 100};
 }
 
-// The command for a track of sound or subtitles: the next one, "off", or a number.
+// The command for a track of sound or subtitles: the next one, "previous", "off", or a number.
 std::optional<PlayerCommand> trackIn(PlayerVerb verb, std::string_view text) {
   constexpr double kMostTracks = 100;
   if (text.empty()) return PlayerCommand{verb};
+  if (text == "previous") return PlayerCommand{verb, kPreviousTrack};
   if (text == "off" && verb == PlayerVerb::SubtitleTrack) return PlayerCommand{verb, -1};
   const auto number = numberIn(text);
   const bool good = number && *number >= 1 && *number <= kMostTracks && *number == std::floor(*number);
@@ -100,8 +101,8 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
 }
 
 const char* formOf(Operand operand) noexcept {
-  constexpr std::array kForms{"",       "+X|-X",   "+S|-S|S|P%", "URL",   "[on|off]",
-                              "[WORD]", "+P|-P|P", "[N|off]",    "[W:H]", "+N|-N|N|last"};
+  constexpr std::array kForms{"",       "+X|-X",   "+S|-S|S|P%",       "URL",   "[on|off]",
+                              "[WORD]", "+P|-P|P", "[N|previous|off]", "[W:H]", "+N|-N|N|last"};
   return kForms[static_cast<std::size_t>(operand)];
 }
 
@@ -135,6 +136,7 @@ std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::AudioTrack:
     case PlayerVerb::SubtitleTrack:
       if (command.value == 0) return word;
+      if (command.value == kPreviousTrack) return word + " previous";
       return word + (command.value < 0 ? std::string(" off") : print(" %.0f", command.value));
     case PlayerVerb::SelectTo:
       if (command.value == 0) return word + " last";

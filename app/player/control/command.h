@@ -46,15 +46,18 @@ enum class PlayerVerb : std::uint8_t {
   VolumeBy,         // percent
   VolumeTo,         // percent
   Mute,             // on, off or toggle, as Loop
-  AudioTrack,       // value: its number, from 1 on; 0: the next one
+  AudioTrack,       // value: its number, from 1 on; 0: the next one; kPreviousTrack
   AudioDelayBy,     // seconds
-  SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last
+  SubtitleTrack,    // value: its number, from 1 on, -1: none, 0: the next one, or none after the last; kPreviousTrack
   ShowSubtitles,    // on, off or toggle, as Loop
   SubtitleDelayBy,  // seconds
   SubtitleSizeBy,   // factor, added
   ChapterBy,        // chapters; -1: to this one's beginning, or to the one before it
   LoopAB,           // first sets the beginning of the repeated part, then its end, then clears both
 };
+
+// The value of AudioTrack and SubtitleTrack for the one before; before the first one are no subtitles.
+inline constexpr double kPreviousTrack = -2;
 
 struct PlayerCommand {
   PlayerVerb verb = PlayerVerb::Play;

@@ -68,6 +68,9 @@ TEST(Command, TracksAreNumberedAndSubtitlesCanBeOff) {
   EXPECT_EQ(parseCommand("audio 2"), (PlayerCommand{V::AudioTrack, 2}));
   EXPECT_EQ(parseCommand("subtitles off"), (PlayerCommand{V::SubtitleTrack, -1}));
   EXPECT_EQ(wordsOf({V::SubtitleTrack, -1}), "subtitles off");
+  EXPECT_EQ(parseCommand("subtitles previous"), (PlayerCommand{V::SubtitleTrack, kPreviousTrack}));
+  EXPECT_EQ(wordsOf({V::SubtitleTrack, kPreviousTrack}), "subtitles previous");
+  EXPECT_EQ(meaningOf({V::SubtitleTrack, kPreviousTrack}), "the previous subtitles, or none");
   for (const char* words : {"audio off", "audio 0", "audio 1.5", "subtitles -2", "audio 1000"}) {
     EXPECT_FALSE(parseCommand(words)) << words;
   }
