@@ -80,6 +80,7 @@ struct FilmInfo {
   std::vector<FilmTrack> sounds, subtitles;  // in `url`, then the subtitle files beside it
   std::optional<std::size_t> sound, words;   // chosen of those
   std::vector<Chapter> chapters;
+  std::string title;  // the container's tag, of the colour's source, without control characters; may be empty
   int sound_tracks = 0, subtitle_tracks = 0, video_tracks_unused = 0;  // in `url`
   const char* sound_refused = nullptr;                                 // why the sound cannot be decoded
 };

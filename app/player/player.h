@@ -123,6 +123,7 @@ class Player {
   [[nodiscard]] ScreenRows keyRows() const;
 
   // player_facts.cpp: what is told
+  [[nodiscard]] std::string fileName() const;
   void followStatistics(MonotonicTime now);
   void tellStatus(MonotonicTime now);
 

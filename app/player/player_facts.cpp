@@ -11,16 +11,6 @@
 namespace relievo {
 namespace {
 
-// The last part of a path or URL, without a query.
-std::string titleOf(const std::string& url) {
-  const std::string path = url.substr(0, url.find('?'));
-  const std::size_t end = path.find_last_not_of('/');
-  if (end == std::string::npos) return url;
-  const std::size_t slash = path.rfind('/', end);
-  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
-  return path.substr(begin, end + 1 - begin);
-}
-
 FingerForces forcesOf(const FingerMarks& marks) {
   const auto force = [](const std::optional<FingerMark>& mark) { return mark ? glm::length(mark->force_n) : 0.0; };
   return {force(marks[0]), force(marks[1])};
@@ -49,6 +39,17 @@ std::optional<double> secondsOf(std::optional<MediaTime> time) {
 }
 
 }  // namespace
+
+// The last part of the film's path or URL, without a query.
+std::string Player::fileName() const {
+  const std::string& url = programme_.film().url;
+  const std::string path = url.substr(0, url.find('?'));
+  const std::size_t end = path.find_last_not_of('/');
+  if (end == std::string::npos) return url;
+  const std::size_t slash = path.rfind('/', end);
+  const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+  return path.substr(begin, end + 1 - begin);
+}
 
 void Player::tellStatus(MonotonicTime now) {
   if (parts_.status == nullptr || !parts_.status->isDue(now) || !film_.isOpen()) return;
@@ -97,7 +98,8 @@ ScreenFacts Player::facts() const {
   const auto place = shelf_place ? browser_->shelf().placeInSection(*shelf_place)
                                  : FilmShelf::Place{programme_.present() + 1, programme_.size()};
   const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
-  return {.title = film.title.empty() ? titleOf(film.url) : film.title,
+  const std::string& title = film.title.empty() ? film_.info().title : film.title;
+  return {.title = title.empty() ? fileName() : title,
           .position_s = toSeconds(position),
           .duration_s = toSeconds(film_.info().duration),
           .buffered_s = toSeconds(film_.bufferedUntil()),

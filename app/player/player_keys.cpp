@@ -133,7 +133,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
       programme_.setLoop(command.value == 0 ? !programme_.loops() : command.value > 0);
       break;
     case PlayerVerb::Screenshot:
-      return screen_.saveScreenshot(facts().title);
+      return screen_.saveScreenshot(fileName());
     case PlayerVerb::Keys:
       return screen_.turnKeys(keyRows());
     default:

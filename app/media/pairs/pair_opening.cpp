@@ -7,6 +7,7 @@
 #include "app/media/frame_rate.h"
 #include "app/media/pairs/pair_film.h"
 #include "app/media/registration/own_registration.h"
+#include "platform/plain_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -226,6 +227,10 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
     return static_cast<int>(
         std::count_if(streams.begin(), streams.end(), [&](const StreamInfo& s) { return s.kind == kind; }));
   };
+  const auto& tags = sources.color()->source().tags();
+  const auto title = tags.find("TITLE");
+  info.title = title == tags.end() ? "" : oneLine(title->second);
+  if (info.title.find_first_not_of(' ') == std::string::npos) info.title.clear();
   info.chapters = sources.color()->source().chapters();
   std::ranges::sort(info.chapters, {}, &Chapter::begin);
   if (info.sounds.empty() && info.subtitles.empty()) {  // not when the source is opened again

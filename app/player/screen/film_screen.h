@@ -54,9 +54,9 @@ class FilmScreen {
   void delaySubtitles(Duration delay);
   // Call when the film continues elsewhere: after an opening or a seek.
   void jump();
-  // Saves the shown picture, without the text over it. `title`: for the file's name. A notice reports success or
-  // failure.
-  void saveScreenshot(const std::string& title);
+  // Saves the shown picture, without the text over it. `film`: its file's name, for the screenshot's. A notice reports
+  // success or failure.
+  void saveScreenshot(const std::string& film);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
   // Between two pictures of the film: draws the present one again if a finger or the text has changed and there is time
@@ -108,7 +108,7 @@ class FilmScreen {
   Picture picture_;
   DepthCalibration calibration_;
   ComingRelief coming_;
-  std::string screenshot_title_;                 // for the screenshot that is due
+  std::string screenshot_film_;                  // for the screenshot that is due
   std::deque<std::future<std::string>> saving_;  // screenshots being written: the notice for each
   ScreenText text_;
   const bool osd_;

@@ -36,9 +36,9 @@ std::string shortened(std::string name) {
   return name;
 }
 
-std::string freeName(const std::string& title) {
+std::string freeName(const std::string& film) {
   const fs::path folder = picturesFolder();
-  const std::string stem = "relievo-" + shortened(fs::path(title).filename().stem().string());
+  const std::string stem = "relievo-" + shortened(fs::path(film).filename().stem().string());
   for (int number = 1;; ++number) {
     const fs::path path = folder / (stem + print("-%04d.png", number));
     if (!isThere(path)) return path.string();
@@ -46,8 +46,8 @@ std::string freeName(const std::string& title) {
 }
 
 // Returns the notice for the viewer.
-std::string save(const std::string& title, const Picture::Capture& shot) {
-  const std::string path = freeName(title);
+std::string save(const std::string& film, const Picture::Capture& shot) {
+  const std::string path = freeName(film);
   const auto written = writePng(path, shot.width, shot.height, shot.rgb);
   std::string what = written ? "Saved " + path : path + ": " + written.error().message;
   log(written ? LogLevel::Info : LogLevel::Warning, "play", "%s", what.c_str());
@@ -56,8 +56,8 @@ std::string save(const std::string& title, const Picture::Capture& shot) {
 
 }  // namespace
 
-void FilmScreen::saveScreenshot(const std::string& title) {
-  screenshot_title_ = title;
+void FilmScreen::saveScreenshot(const std::string& film) {
+  screenshot_film_ = film;
   picture_.capture();
   redraw_ = true;
 }
@@ -66,7 +66,7 @@ void FilmScreen::writeScreenshot(MonotonicTime now) {
   auto capture = picture_.takeCapture();
   if (!capture) return;
   const auto task = std::make_shared<std::packaged_task<std::string()>>(
-      [title = screenshot_title_, shot = std::move(*capture)] { return save(title, shot); });
+      [film = screenshot_film_, shot = std::move(*capture)] { return save(film, shot); });
   if (files_.give("", [task] { (*task)(); })) saving_.push_back(task->get_future());
   else text_.notice({"Not saved: the disk is busy with the screenshots before", std::nullopt}, now);
 }

@@ -106,13 +106,13 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   write("a.srt", "1\n00:00:00,400 --> 00:00:00,800\nOne\n\n2\n00:00:03,000 --> 00:00:03,500\nTwo\n");
   write("b.srt", "1\n00:00:00,600 --> 00:00:01,000\nUn\n\n2\n00:00:03,200 --> 00:00:03,600\nDeux\n");
   write("meta",
-        ";FFMETADATA1\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=2000\ntitle=First\n"
+        ";FFMETADATA1\ntitle=One\x1b film\n[CHAPTER]\nTIMEBASE=1/1000\nSTART=0\nEND=2000\ntitle=First\n"
         "[CHAPTER]\nTIMEBASE=1/1000\nSTART=2000\nEND=4000\ntitle=Second\n");
   const std::string folder = folder_ / "";
-  const std::string command =
-      "cd " + folder +
-      " && ffmpeg -v error -i film.mkv -i a.srt -i b.srt -i meta -map 0 -map 1 -map 2 "
-      "-map_chapters 3 -c copy -disposition:s 0 -metadata:s:s:0 language=eng -metadata:s:s:1 language=fre all.mkv";
+  const std::string command = "cd " + folder +
+                              " && ffmpeg -v error -i film.mkv -i a.srt -i b.srt -i meta -map 0 -map 1 -map 2 "
+                              "-map_chapters 3 -map_metadata 3 -c copy -disposition:s 0 -metadata:s:s:0 language=eng "
+                              "-metadata:s:s:1 language=fre all.mkv";
   if (std::system(command.c_str()) != 0)
     GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
   PairReader reader(backends());
@@ -123,6 +123,7 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_EQ(info.words, 1u);
   ASSERT_EQ(info.chapters.size(), 2u);
   EXPECT_EQ(info.chapters[1].title, "Second");
+  EXPECT_EQ(info.title, "One  film");
   EXPECT_EQ(info.chapters[1].begin, fromSeconds(2));
   EXPECT_THAT(readAll(reader), ElementsAre("0.6-1 Un", "3.2-3.6 Deux"));
 
