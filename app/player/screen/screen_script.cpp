@@ -16,20 +16,47 @@ namespace relievo {
 namespace {
 
 constexpr double kBarTop = 658, kBarHeight = 12, kBarReach = 14;  // so far above and below the bar a click is on it
-constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 680;
+constexpr double kTitleSize = 30, kTitleLine = 38, kTimesSize = 24, kTimesTop = 680, kStatusLine = 30;
 constexpr double kPointedSize = 20, kPointedTop = kBarTop - 34;  // the time that the mouse points at
 constexpr double kGaugeTop = 280, kGaugeHeight = 200, kGaugeWidth = 16, kGaugeNewtons = 10;
 constexpr double kEdge = 30;  // of the mark for a finger beside the picture
 constexpr double kTop = 30;   // of the text at the top of the view
 constexpr double kGap = 10;   // between two of its parts
 
-std::vector<std::string> titleLines(const ScreenBar& bar, double width) {
-  return folded(bar.title, cellsIn(width - 2 * kMargin, kTitleSize), 2);
+// Drops the last parts that do not fit.
+std::string shortened(std::string parts, int cells) {
+  for (std::size_t end = parts.rfind("   "); static_cast<int>(parts.size()) > cells && end != std::string::npos;
+       end = parts.rfind("   ")) {
+    parts.resize(end);
+  }
+  return parts;
 }
 
-// The height of the dark ground behind the bar.
-double barGround(std::size_t title_lines) noexcept {
-  return kPointedTop - 16 - kTitleLine * static_cast<double>(title_lines);
+// The words around the bar.
+struct BarWords {
+  std::vector<std::string> title, status;  // above it
+  std::string times, beside;               // below it; at the right the status, where there is room for all of it
+
+  // Where the dark ground behind all of them begins.
+  [[nodiscard]] double top() const noexcept {
+    return kPointedTop - 16 - kTitleLine * static_cast<double>(title.size()) -
+           kStatusLine * static_cast<double>(status.size());
+  }
+};
+
+BarWords wordsOf(const ScreenBar& bar, double width) {
+  constexpr std::size_t kMostLines = 3;  // above the bar
+  const double inner = width - 2 * kMargin;
+  const int cells = cellsIn(inner, kTimesSize);
+  BarWords words{.title = folded(bar.title, cellsIn(inner, kTitleSize), 2)};
+  if (const auto times = folded(shortened(bar.times, cells), cells, 1); !times.empty()) words.times = times[0];
+  if (words.times.size() + 2 + bar.status.size() <= static_cast<std::size_t>(cells)) {
+    words.beside = bar.status;
+    return words;
+  }
+  const std::size_t lines = kMostLines - words.title.size();
+  words.status = folded(lines == 1 ? shortened(bar.status, cells) : bar.status, cells, lines);
+  return words;
 }
 
 // The time that the mouse points at, above the bar and centred on the mouse.
@@ -41,37 +68,26 @@ void addPointed(Script& script, const ScreenBar& bar) {
   script.text(bar.pointed_time, 8, x, kPointedTop, kPointedSize, kAccent);
 }
 
-// Drops the last parts that do not fit, so that the times stay whole.
-std::string shortened(std::string times, int cells) {
-  for (std::size_t end = times.rfind("   "); static_cast<int>(times.size()) > cells && end != std::string::npos;
-       end = times.rfind("   ")) {
-    times.resize(end);
+void addBarWords(Script& script, const BarWords& words) {
+  double y = words.top() + 12;
+  for (const std::string& line : words.title) {
+    script.text(line, 7, kMargin, y, kTitleSize);
+    y += kTitleLine;
   }
-  return times;
-}
-
-// Parts that do not fit beside the times are left out.
-void addTimes(Script& script, const ScreenBar& bar) {
-  constexpr double kFewest = 12;  // letters that are worth it
-  const double inner = script.width() - 2 * kMargin;
-  const auto times = folded(shortened(bar.times, cellsIn(inner, kTimesSize)), cellsIn(inner, kTimesSize), 1);
-  if (times.empty()) return;
-  script.text(times[0], 7, kMargin, kTimesTop, kTimesSize);
-  const double room = inner - kLetterOfSize * kTimesSize * (static_cast<double>(times[0].size()) + 2);
-  if (room < kFewest * kLetterOfSize * kTimesSize) return;
-  const auto status = folded(shortened(bar.status, cellsIn(room, kTimesSize)), cellsIn(room, kTimesSize), 1);
-  if (!status.empty()) script.text(status[0], 9, script.width() - kMargin, kTimesTop, kTimesSize, kGray);
+  for (const std::string& line : words.status) {
+    script.text(line, 7, kMargin, y, kTimesSize, kGray);
+    y += kStatusLine;
+  }
+  script.text(words.times, 7, kMargin, kTimesTop, kTimesSize);
+  script.text(words.beside, 9, script.width() - kMargin, kTimesTop, kTimesSize, kGray);
 }
 
 void addBar(Script& script, const ScreenBar& bar) {
   const double inner = script.width() - 2 * kMargin;
-  const auto title = titleLines(bar, script.width());
-  const double ground = barGround(title.size()), title_top = ground + 12;
-  script.box({0, ground, script.width(), kScreenRows - ground}, kBlack, 0.6);
+  const BarWords words = wordsOf(bar, script.width());
+  script.box({0, words.top(), script.width(), kScreenRows - words.top()}, kBlack, 0.6);
   addPointed(script, bar);
-  for (std::size_t i = 0; i < title.size(); ++i) {
-    script.text(title[i], 7, kMargin, title_top + kTitleLine * static_cast<double>(i), kTitleSize);
-  }
+  addBarWords(script, words);
   if (bar.has_length) {
     script.box({kMargin, kBarTop, inner, kBarHeight}, kWhite, 0.25);
     script.box({kMargin, kBarTop, inner * bar.buffered, kBarHeight}, kWhite, 0.3);
@@ -84,28 +100,27 @@ void addBar(Script& script, const ScreenBar& bar) {
     }
     script.box({kMargin + inner * bar.position - 3, kBarTop - 5, 6, kBarHeight + 10}, kWhite, 1);
   }
-  addTimes(script, bar);
 }
 
-// One scale; a column and a figure for each finger that has a device.
-void addForces(Script& script, const std::array<std::optional<double>, 2>& forces_n) {
+// One scale; a column and a figure for each finger that has a device. All above `bottom`.
+void addForces(Script& script, const std::array<std::optional<double>, 2>& forces_n, double bottom) {
   constexpr double kColumn = kGaugeWidth + 6, kLine = 28;
   const auto fingers =
       static_cast<double>(std::ranges::count_if(forces_n, [](const auto& n) { return n.has_value(); }));
   if (fingers == 0) return;
+  const double height = kGaugeHeight + 34 + fingers * kLine, top = std::min(kGaugeTop, bottom + 14 - height);
   double x = script.width() - kMargin - kGaugeWidth - (fingers - 1) * kColumn;
-  double y = kGaugeTop + kGaugeHeight + 12;
+  double y = top + kGaugeHeight + 12;
   const double right = script.width() - kMargin;
-  script.box({x - 56, kGaugeTop - 14, right - x + 70, kGaugeHeight + 34 + fingers * kLine}, kBlack, 0.5);
+  script.box({x - 56, top - 14, right - x + 70, height}, kBlack, 0.5);
   for (const int newtons : {0, 5, 10}) {
-    script.text(std::to_string(newtons), 6, x - 10, kGaugeTop + kGaugeHeight * (1 - newtons / kGaugeNewtons), 20,
-                kGray);
+    script.text(std::to_string(newtons), 6, x - 10, top + kGaugeHeight * (1 - newtons / kGaugeNewtons), 20, kGray);
   }
   for (std::size_t i = 0; i < forces_n.size(); ++i) {
     if (!forces_n[i]) continue;
     const double level = kGaugeHeight * std::clamp(*forces_n[i] / kGaugeNewtons, 0.0, 1.0);
-    script.box({x, kGaugeTop, kGaugeWidth, kGaugeHeight}, kWhite, 0.25);
-    script.box({x, kGaugeTop + kGaugeHeight - level, kGaugeWidth, level}, kFingerColors[i], 1);
+    script.box({x, top, kGaugeWidth, kGaugeHeight}, kWhite, 0.25);
+    script.box({x, top + kGaugeHeight - level, kGaugeWidth, level}, kFingerColors[i], 1);
     script.text(print("%.1f N", *forces_n[i]), 9, right + 4, y, 26, fingers > 1 ? kFingerColors[i] : kWhite);
     x += kColumn;
     y += kLine;
@@ -233,8 +248,9 @@ std::vector<std::string> screenLines(const ScreenContent& content, double aspect
     if (content.fingers[i]) addFinger(script, i, *content.fingers[i]);
   }
   if (content.bar) addBar(script, *content.bar);
-  addForces(script, content.forces_n);
-  addTop(script, content, kScreenRows * roomForWords(content, aspect));
+  const double room = kScreenRows * roomForWords(content, aspect);
+  addForces(script, content.forces_n, room);
+  addTop(script, content, room);
   return script.take();
 }
 
@@ -249,7 +265,7 @@ std::vector<std::string> linesOverPosters(const ScreenContent& content, double a
 
 double roomForWords(const ScreenContent& content, double aspect) {
   if (!content.bar) return 1;
-  return barGround(titleLines(*content.bar, kScreenRows * aspect).size()) / kScreenRows;
+  return wordsOf(*content.bar, kScreenRows * aspect).top() / kScreenRows;
 }
 
 std::optional<double> barShareAt(double across, double down, double aspect) noexcept {

@@ -153,15 +153,24 @@ TEST_P(ScreenLayout, ThePageOfKeysHasEveryWordOfEveryKey) {
   }
 }
 
-// Subtitles are lifted to where the bar's ground begins, which is above all its words.
+// Subtitles are lifted to where the bar's ground begins, which is above all its words and below those of the force.
 TEST_P(ScreenLayout, NothingOfTheBarIsInTheSubtitlesRoom) {
   ScreenContent content;
   EXPECT_EQ(roomForWords(content, GetParam().aspect), 1);
-  content.bar =
-      ScreenBar{.title = test::kLongName, .times = "0:01", .has_length = true, .pointed = 0.5, .pointed_time = "1"};
+  content.bar = ScreenBar{.title = test::kLongName,
+                          .times = "0:01",
+                          .status = "3D: mono   touch: Novint Falcon",
+                          .has_length = true,
+                          .pointed = 0.5,
+                          .pointed_time = "1"};
+  content.forces_n = {9.9, 9.8};
   const double room = roomForWords(content, GetParam().aspect) * GetParam().height;
   EXPECT_GT(room, 0.6 * GetParam().height);
-  for (const Words& words : inkOf(screenLines(content, GetParam().aspect))) EXPECT_GE(words.top, room) << words.line;
+  for (const Words& words : inkOf(screenLines(content, GetParam().aspect))) {
+    const bool force = words.line.ends_with(" N") || words.line.find("\\an6\\") != std::string::npos;
+    if (force) EXPECT_LE(words.bottom, room) << words.line;
+    else EXPECT_GE(words.top, room) << words.line;
+  }
 }
 
 constexpr double kWide = 16.0 / 9;

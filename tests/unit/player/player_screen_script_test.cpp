@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/player/control/key_table.h"
 #include "app/player/screen/fold.h"
+#include "app/player/screen/keys_script.h"
 
 namespace relievo {
 namespace {
@@ -57,6 +59,32 @@ TEST(ScreenScript, TheTimesStayWholeInANarrowWindow) {
   };
   EXPECT_TRUE(isShown(16.0 / 9, "}0:07 / 0:12   paused   repeat"));
   EXPECT_TRUE(isShown(0.4, "}0:07 / 0:12")) << "16 letters";
+}
+
+// The status stands above the bar where there is no room beside the times.
+TEST(ScreenScript, TheStatusIsWholeInAPortraitWindow) {
+  ScreenContent content;
+  content.bar = ScreenBar{.title = "film.mkv", .times = "0:07 / 0:12   paused", .status = "3D: mono   touch: mouse"};
+  for (const double aspect : {16.0 / 9, 9.0 / 16}) {
+    const auto lines = screenLines(content, aspect);
+    EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}3D: mono   touch: mouse"))) << aspect;
+    EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}0:07 / 0:12   paused"))) << aspect;
+  }
+  EXPECT_LT(roomForWords(content, 9.0 / 16), roomForWords(content, 16.0 / 9));
+}
+
+// In the window of a portrait film on a screen of 640x360.
+TEST(ScreenScript, LongKeysStayWholeInANarrowWindow) {
+  constexpr double kAspect = 9.0 / 16;
+  constexpr int kHeight = 331;
+  ScreenContent content;
+  content.keys = KeyTable::usual().rowsIn(PlayerState::Playing, KeyBoard::Keyboard);
+  std::vector<std::string> lines;
+  for (; content.keys_page < keyPages(content.keys, kAspect, kHeight); ++content.keys_page) {
+    for (std::string& line : screenLines(content, kAspect, kHeight)) lines.push_back(std::move(line));
+  }
+  EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}Backspace")));
+  EXPECT_THAT(lines, testing::Contains(HasSubstr("(comma)")));
 }
 
 TEST(ScreenScript, TheBarIsWhereItIsDrawn) {
