@@ -93,6 +93,25 @@ TEST_F(WindowDisplay, FillsTheScreenAndGivesItBack) {
       << "it is off already";
 }
 
+// As under a window manager, which moves the window while SDL waits for it.
+TEST_F(WindowDisplay, TheMouseStaysWhereItIsWhileTheWindowFillsTheScreen) {
+  const std::array<int, 2> there{place_.x + 150, place_.y + 90};
+  display_->setViews({.views = {{.half_width_mm = 100, .half_height_mm = 60}}});
+  screen_->moveMouse(there[0], there[1]);
+  ASSERT_TRUE(until([&] { return pointsAt(50.5, -30.5); }));
+  {
+    const std::jthread manager([&] {
+      for (int tries = 0; screen_->takeFullScreenWish() != 1 && tries < 5000; ++tries) std::this_thread::sleep_for(1ms);
+      screen_->fillWith(window_);
+    });
+    display_->fillScreen(FullScreen::On);
+  }
+  EXPECT_TRUE(until([&] { return screen_->place(window_)->width == XScreen::kWidth; }));
+  EXPECT_EQ(screen_->mouse(), there);
+  display_.reset();
+  EXPECT_EQ(screen_->takeFullScreenWish(), 0) << "not left to the next test";
+}
+
 // As for the list of films, before there is a film. The screen is 640 x 480.
 TEST_F(WindowDisplay, BeforeAFilmItFitsTheScreenInItsShape) {
   const auto other = makeWindowDisplay(std::make_shared<WindowInput>(), clock_);

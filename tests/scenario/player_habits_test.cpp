@@ -72,10 +72,10 @@ class PlayerHabits : public testing::Test {
         words << k + 1 << "\n" << minute << ",000 --> " << minute << ",990\nWORDS " << language << "\n\n";
       }
     }
-    const std::string mux =
-        "ffmpeg -v error -i " + folder_ / "bare.mkv" + " -i " + folder_ / "chapters.txt" +
-        " -map 0 -map_chapters 1 -c copy -metadata:s:a:0 language=eng -metadata:s:a:1 language=deu " +
-        folder_ / "film.mkv";
+    const std::string mux = "ffmpeg -v error -i " + folder_ / "bare.mkv" + " -i " + folder_ / "chapters.txt" +
+                            " -map 0 -map_chapters 1 -c copy -metadata:s:a:0 language=eng -metadata:s:a:1 language=deu "
+                            "-metadata title='A film' " +
+                            folder_ / "film.mkv";
     ASSERT_EQ(std::system(mux.c_str()), 0);  // NOLINT(bugprone-command-processor): a test's own words
   }
   void play() {
@@ -158,6 +158,7 @@ class PlayerHabits : public testing::Test {
   void subtitles();
   void picture();
   void pages();
+  void mouseOnThePage();
   void speedAndLoop();
   void aFileIsDropped();
 };
@@ -171,7 +172,7 @@ void PlayerHabits::aQuietFilmLeavesTheSoundCardToOthers() {
 void PlayerHabits::theNextFilmHasSound() {
   press("n");
   EXPECT_TRUE(until([&] { return player_->holds(folder_ / "sound.raw"); })) << said();
-  show("film.mkv - relievo");
+  show("A film - relievo");
   EXPECT_TRUE(until([&] { return status()["state"] == "playing"; }));
 }
 
@@ -188,8 +189,11 @@ void PlayerHabits::pauseStepAndSeek() {
 }
 
 void PlayerHabits::chapters() {
+  EXPECT_EQ(status()["chapter"], "2 of 3, 30");
   expectPlace("Prior", 60);
+  EXPECT_EQ(status()["chapter"], "3 of 3, 60");
   expectPlace("Next", 30);
+  EXPECT_EQ(status()["chapter"], "2 of 3, 30");
   expectPlace("Shift_L+2", 60);  // @
   expectPlace("Shift_L+1", 30);  // !
 }
@@ -226,6 +230,9 @@ void PlayerHabits::subtitles() {
   expectAfter("Shift_L+g", "subtitle_size", 1.1);
   expectAfter("Shift_L+f", "subtitle_size", 1);
   expectAfter("j", "subtitles", "off");
+  expectAfter("Shift_L+j", "subtitles", "2 of 2, en, film.en.srt");
+  expectAfter("Shift_L+j", "subtitles", "1 of 2, de, film.de.srt");
+  expectAfter("Shift_L+j", "subtitles", "off");
 }
 
 void PlayerHabits::picture() {
@@ -248,7 +255,7 @@ void PlayerHabits::picture() {
   EXPECT_TRUE(until([&] { return status()["full_screen"] == true; })) << "a double click";
   expectAfter("Escape", "full_screen", false);
   EXPECT_TRUE(until([&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width == kWidth; }));
-  show("film.mkv - relievo");
+  show("A film - relievo");
 }
 
 void PlayerHabits::pages() {
@@ -271,11 +278,31 @@ void PlayerHabits::pages() {
     EXPECT_TRUE(leaves(away)) << away;
   }
   EXPECT_EQ(status()["state"], "paused") << "no key of the page has ended the film";
+  mouseOnThePage();
   const auto figures = [&] { return at(265, static_cast<int>(200 * kRow))[0] < 120; };  // the ground of their page
   press("i");
   EXPECT_TRUE(until(figures)) << "statistics";
   press("i");
   EXPECT_TRUE(until([&] { return !figures(); }));
+}
+
+// The wheel turns the pages, a click closes them; the sound stays as it is.
+void PlayerHabits::mouseOnThePage() {
+  const auto shown = [&] { return screen_->pixels(place_.x, place_.y, kWidth, kHeight); };
+  screen_->moveMouse(place_.x + 160, place_.y + 80);
+  press("F1");
+  EXPECT_TRUE(until([&] { return at(kWidth - 4, 4)[0] < 60; }));
+  const auto first = shown();
+  for (const unsigned wheel : {5U, 4U}) {
+    screen_->button(wheel, true);
+    screen_->button(wheel, false);
+    EXPECT_TRUE(until([&] { return (shown() == first) == (wheel == 4); })) << wheel;
+    EXPECT_EQ(status()["volume"], 100);
+  }
+  screen_->button(1, true);
+  screen_->button(1, false);
+  EXPECT_TRUE(until([&] { return isFilm(at(kWidth - 4, 4)); })) << "a click";
+  EXPECT_EQ(status()["state"], "paused");
 }
 
 void PlayerHabits::speedAndLoop() {

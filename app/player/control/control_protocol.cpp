@@ -115,11 +115,13 @@ std::string statusLine(const std::string& id, const ScreenFacts& facts, const st
   const bool film = !source.empty();
   json["source"] = film ? Json(source) : Json(nullptr);
   json["position_s"] = film ? Json(rounded(facts.position_s)) : Json(nullptr);
+  json["title"] = film ? Json(facts.title) : Json(nullptr);
   json["duration_s"] = film && facts.duration_s > 0 ? Json(rounded(facts.duration_s)) : Json(nullptr);
   json["rate"] = facts.rate;
   json["loop"] = facts.loop;
   json["film"] = film ? Json(facts.film) : Json(nullptr);
   json["films"] = film ? Json(facts.films) : Json(nullptr);
+  json["chapter"] = film && !facts.chapter.empty() ? Json(facts.chapter) : Json(nullptr);
   json["stereo"] = stereoWord(facts.stereo);
   json["swap_eyes"] = facts.stereo.swap_eyes;
   json["depth_strength"] = rounded(facts.stereo.strength);

@@ -174,6 +174,20 @@ void XScreen::resize(unsigned long window, int width, int height) const {
   XSync(connection_, False);
 }
 
+void XScreen::fillWith(unsigned long window) const {
+  XMoveResizeWindow(connection_, window, 0, 0, kWidth, kHeight);
+  XSync(connection_, False);
+}
+
+std::array<int, 2> XScreen::mouse() const {
+  Window root = 0, child = 0;
+  std::array<int, 2> on_screen{}, in_window{};
+  unsigned buttons = 0;
+  XQueryPointer(connection_, DefaultRootWindow(connection_), &root, &child, &on_screen[0], &on_screen[1], &in_window[0],
+                &in_window[1], &buttons);
+  return on_screen;
+}
+
 void XScreen::askToClose(unsigned long window) const {
   XEvent event{};
   event.xclient.type = ClientMessage;

@@ -42,6 +42,10 @@ class XScreen {
   // What a desktop's settings say to all programs, as "Xft.dpi:\t192\n".
   void setResources(const std::string& text) const;
   void resize(unsigned long window, int width, int height) const;
+  // As a window manager does that fills the screen with a window.
+  void fillWith(unsigned long window) const;
+  // Where the mouse is, x and y.
+  [[nodiscard]] std::array<int, 2> mouse() const;
   // Sends the request of a window manager's close button.
   void askToClose(unsigned long window) const;
   void focus(unsigned long window) const;
