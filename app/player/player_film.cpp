@@ -183,7 +183,7 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const auto seen = screen_.show(film_.picture(), film_.coming(), marks(), now);
+  const auto seen = screen_.show(film_.picture(), film_.late(now), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
 }

@@ -62,6 +62,7 @@ class Stage {
   [[nodiscard]] Image show(const Scene& scene);
   // Draws the last scene again.
   [[nodiscard]] Image again();
+  [[nodiscard]] bool rehearse() { return renderer_->rehearse(surface_).has_value(); }
   [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
 
  private:

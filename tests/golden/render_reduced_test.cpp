@@ -46,6 +46,18 @@ TEST_P(RenderReduced, ASmallerViewShowsTheSamePicture) {
   EXPECT_EQ(least_opaque, 255);
 }
 
+// Before the clock starts, so that no picture of the film is left out until the size fits.
+TEST(RenderReduced, ARehearsalFindsTheSizeThatHoldsAtOnce) {
+  STAGE_OR_SKIP(stage, kWidth, kHeight);
+  const Image whole = stage.show(bands(StereoLayout::SideBySide));
+  EXPECT_TRUE(stage.rehearse());
+  EXPECT_EQ(stage.renderer().statistics().size, 1.0) << "there is time enough";
+  EXPECT_EQ(stage.again().meanDifference(whole), 0.0) << "nothing of the rehearsal stays";
+  stage.renderer().setFrameBudget(Duration(1));
+  EXPECT_TRUE(stage.rehearse());
+  EXPECT_EQ(stage.renderer().statistics().size, 0.5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Layouts, RenderReduced,
                          testing::Values(StereoLayout::Mono, StereoLayout::SideBySide, StereoLayout::Rows));
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film that this machine cannot decode in time: which pictures are left out, and what is reported.
+// A film that this machine cannot decode in time: which pictures are left out, and what is reported; how late one is.
 #include "app/player/film/film_playback.h"
 
 namespace relievo {
@@ -24,6 +24,11 @@ void FilmPlayback::followDecoder(MonotonicTime now) {
   leaves_out_ = decode_pace_.leavesOut();
   feed_.leaveOut(leaves_out_, hurry ? std::optional(*position + kAfterHurry) : std::nullopt);
   if (leaves_out_) notes_.slow();
+}
+
+std::optional<Duration> FilmPlayback::late(MonotonicTime now) const {
+  const auto position = clock_.position(now);
+  return position && !isLive() ? std::optional(*position - picture().color.pts) : std::nullopt;
 }
 
 bool FilmPlayback::waitsForDecoder() const noexcept {

@@ -114,6 +114,8 @@ class FilmPlayback {
   void noteShown();
 
   [[nodiscard]] const FramePair& picture() const noexcept { return head_.present(); }
+  // How long the present picture has been due; nullopt where its time does not tell: of a live film, without a clock.
+  [[nodiscard]] std::optional<Duration> late(MonotonicTime now) const;
   // True if the present picture has not been shown; false if only its depth is new (FramePair::stands).
   [[nodiscard]] bool hasNewPicture() const noexcept { return head_.colors() != shown_color_; }
   // The film's first picture was shown or is about to be.

@@ -61,9 +61,9 @@ void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolu
   text_.wake(now);
 }
 
-Result<bool> FilmScreen::show(const FramePair& pair, const DepthComing& coming, const FingerMarks& fingers,
-                              MonotonicTime now) {
-  picture_.setPair(pair);
+Result<bool> FilmScreen::show(const FramePair& pair, std::optional<Duration> late, const DepthComing& coming,
+                              const FingerMarks& fingers, MonotonicTime now) {
+  picture_.setPair(pair, late);
   lookAhead(pair.depth, coming);
   const auto seen = draw(fingers, now);
   if (!seen || !*seen) {

@@ -46,8 +46,8 @@ class FilmScreen {
   // Files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
   // Draws a picture of the film; `coming` follows it. False if the screen is lost: the picture counts as dropped.
-  [[nodiscard]] Result<bool> show(const FramePair& pair, const DepthComing& coming, const FingerMarks& fingers,
-                                  MonotonicTime now);
+  [[nodiscard]] Result<bool> show(const FramePair& pair, std::optional<Duration> late, const DepthComing& coming,
+                                  const FingerMarks& fingers, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }

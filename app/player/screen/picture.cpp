@@ -53,6 +53,8 @@ void Picture::setScene(const DepthCalibration& calibration, const DisplayVolume&
   calibration_ = calibration;
   volume_ = volume;
   frame_budget_ = frame_budget;
+  if (renderer_ != nullptr) renderer_->setFrameBudget(frame_budget);
+  rehearse_ = true;
 }
 
 void Picture::announce(const AnnouncedFilm& film) {
@@ -60,8 +62,9 @@ void Picture::announce(const AnnouncedFilm& film) {
   display_.announce(film);
 }
 
-void Picture::setPair(const FramePair& pair) {
+void Picture::setPair(const FramePair& pair, std::optional<Duration> late) {
   pair_ = pair;
+  late_ = late;
   uploaded_ = false;
 }
 
@@ -126,6 +129,10 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_, pair_.right); !set) return set;
     uploaded_ = true;
   }
+  if (uploaded_ && std::exchange(rehearse_, false)) {
+    if (auto rehearsed = renderer_->rehearse(surface); !rehearsed) return rehearsed;
+    words_.forget();
+  }
   const TextFrame frame = textFrame();
   const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
   if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_, room) || renewed) {
@@ -135,7 +142,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
   renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
-  if (auto drawn = renderer_->draw(surface, fingers); !drawn) return drawn;
+  if (auto drawn = renderer_->draw(surface, fingers, std::exchange(late_, Duration(0))); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
 }
@@ -143,7 +150,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
 Result<void> Picture::captureFrom(const DisplaySurface& surface, const FingerMarks& fingers) {
   if (!std::exchange(capture_due_, false)) return {};
   renderer_->setText({.width = 1, .height = 1}, {});
-  if (auto drawn = renderer_->draw(surface, fingers); !drawn) return drawn;
+  if (auto drawn = renderer_->draw(surface, fingers, Duration(0)); !drawn) return drawn;
   captured_ = Capture{surface.width, surface.height, SceneRenderer::read(surface)};
   words_.forget();
   return {};

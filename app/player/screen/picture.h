@@ -42,15 +42,16 @@ class Picture {
   [[nodiscard]] Result<void> open() { return display_.open(config_); }
   void close() noexcept;
 
-  // Call when the film is open. `frame_budget`: how long drawing may take.
+  // Call when the film is open, before its first picture. `frame_budget`: how long drawing may take.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration frame_budget) noexcept;
   // A film begins: sets the window's title and size.
   void announce(const AnnouncedFilm& film);
   void fillScreen(FullScreen wish) { display_.fillScreen(wish); }
   [[nodiscard]] bool isFullScreen() const noexcept { return display_.isFullScreen(); }
   [[nodiscard]] std::vector<std::string> takeDropped() { return display_.takeDropped(); }
-  // The pair that `show` shows from now on; a reference is kept for a screen that returns.
-  void setPair(const FramePair& pair);
+  // The pair that `show` shows from now on; a reference is kept for a screen that returns. `late`: how long after its
+  // time it is shown first.
+  void setPair(const FramePair& pair, std::optional<Duration> late = {});
   // From the next `show` on: black, with the text if there is any.
   void clear() noexcept;
   // The text over the picture from the next `show` on.
@@ -136,6 +137,8 @@ class Picture {
   Duration subtitle_delay_{0};
   ReliefAhead ahead_;
   bool cut_ = false, capture_due_ = false;
+  bool rehearse_ = false;  // before the first picture of a film
+  std::optional<Duration> late_;
   std::optional<Capture> captured_;
   bool uploaded_ = false;
   MonotonicTime next_retry_;

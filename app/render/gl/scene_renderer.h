@@ -76,8 +76,12 @@ class SceneRenderer {
   [[nodiscard]] Result<void> setFrame(const Frame& color, const Frame& depth, const DepthCalibration& calibration,
                                       const DisplayVolume& volume, const Frame& right = {});
   // Draws the last pair into `surface`, or, without a pair, the text on black. Blocks until the GPU has finished, so
-  // that the time can be measured.
-  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
+  // that the time can be measured. `late`: how long after its time the pair is drawn (DetailLevel::drew).
+  [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers,
+                                  std::optional<Duration> late = {});
+  // Draws the last pair with a finger and text until all programs are compiled and the relief is as coarse and small as
+  // the frame budget needs, so that nothing of that happens while the film plays. Then call `setText` and `draw`.
+  [[nodiscard]] Result<void> rehearse(const DisplaySurface& surface);
   // Reads back what `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
   [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);
   [[nodiscard]] RenderStatistics statistics() const noexcept;

@@ -23,7 +23,7 @@ class FilmScreenTest : public testing::Test {
     screen_.emplace(*display_, config_, stereo_, true, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open());
   }
-  bool show() { return screen_->show({}, {}, {}, clock_.now()).value_or(false); }
+  bool show() { return screen_->show({}, {}, {}, {}, clock_.now()).value_or(false); }
   // How many pictures are presented when it is asked to draw again, `later` than before.
   int redraw(const std::optional<FingerMark>& finger, Duration later, MonotonicTime next = MonotonicTime::max()) {
     clock_.sleepUntil(clock_.now() + later);
@@ -84,7 +84,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
                       journal, files_);
     ASSERT_TRUE(screen.open());
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, {}, clock_.now()));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, {}, {}, clock_.now()));
     PlayReport report;
     screen.describe(report);
     EXPECT_EQ(report.stereo, wish.shown);

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <utility>
 #include <vector>
 
 namespace relievo {
@@ -85,6 +88,88 @@ TEST(DetailLevel, OneLateFrameChangesNothing) {
   detail.drew(milliseconds(150));
   EXPECT_EQ(changes(run(detail, 20, 10.0, 5.0)), 0);
   EXPECT_EQ(detail.level(), 0);
+}
+
+// A player of a film: shows each picture when it is due, or at once if that is past, and leaves out those whose
+// successor is due. `fine_ms` is what drawing takes at the finest level; half of it grows with the triangles, half with
+// the pixels.
+class Playing {
+ public:
+  explicit Playing(Duration period) : period_(period), detail_(period * 3 / 5) {}
+
+  // Returns how many pictures were left out.
+  int play(int pictures, const std::function<double(int)>& fine_ms) {
+    int left_out = 0;
+    for (const int end = picture_ + pictures; picture_ < end; ++picture_) {
+      now_ = std::max(now_, picture_ * period_);
+      if (now_ >= (picture_ + 1) * period_) {
+        ++left_out;
+        continue;
+      }
+      const Duration took = drawing(fine_ms(picture_));
+      detail_.drew(took, now_ - picture_ * period_);
+      now_ += took;
+    }
+    return left_out;
+  }
+  void rehearse(double fine_ms) {
+    while (detail_.rehearsed(drawing(fine_ms))) {
+    }
+  }
+  [[nodiscard]] const DetailLevel& detail() const { return detail_; }
+
+ private:
+  [[nodiscard]] Duration drawing(double fine_ms) const {
+    const double share = 0.5 / detail_.factor() + 0.5 * detail_.size() * detail_.size();
+    return fromSeconds(1e-3 * fine_ms * share);
+  }
+
+  Duration period_, now_{0};
+  DetailLevel detail_;
+  int picture_ = 0;
+};
+
+constexpr Duration k60Hz = std::chrono::microseconds(16'667), k30Hz = std::chrono::microseconds(33'333);
+
+std::function<double(int)> always(double ms) {
+  return [ms](int) { return ms; };
+}
+
+TEST(DetailLevel, StaysWhileNoPictureIsLate) {
+  Playing slow_but_in_time(k60Hz);
+  EXPECT_EQ(slow_but_in_time.play(1000, always(15)), 0);
+  EXPECT_EQ(slow_but_in_time.detail().level(), 0);
+  Playing large(k30Hz);
+  EXPECT_EQ(large.play(1000, always(28)), 0);
+  EXPECT_EQ(large.detail().level(), 0);
+}
+
+TEST(DetailLevel, ADelayByOtherWorkIsNoProof) {
+  Playing film(k60Hz);
+  film.play(100, always(13));
+  EXPECT_LE(film.play(600, [](int picture) { return picture % 60 == 0 ? 60.0 : 13.0; }), 30);
+  EXPECT_EQ(film.detail().level(), 0);
+}
+
+TEST(DetailLevel, GivesWayWithinThreePicturesThatComeLaterAndLater) {
+  const std::pair<double, int> cases[] = {{18, 0}, {20, 1}, {22, 1}, {25, 2}};
+  for (const auto& [ms, left_out] : cases) {
+    Playing film(k60Hz);
+    EXPECT_EQ(film.play(60, always(11)), 0);
+    EXPECT_LE(film.play(600, always(ms)), left_out) << ms;
+    EXPECT_GT(film.detail().level(), 0) << ms;
+  }
+}
+
+TEST(DetailLevel, BeginsWhereARehearsalSaysThatItHolds) {
+  for (const double ms : {9.0, 12.0, 20.0, 30.0, 45.0}) {
+    Playing film(k60Hz);
+    film.rehearse(ms);
+    const int level = film.detail().level();
+    EXPECT_EQ(level > 0, ms > 12) << ms;
+    EXPECT_EQ(film.play(600, always(ms)), 0) << ms;
+    EXPECT_LE(film.detail().level(), level) << ms << ": only finer again";
+  }
 }
 
 TEST(DetailLevel, TriesAgainMoreAndMoreSeldom) {

@@ -60,6 +60,12 @@ void Overlay::set(const TextFrame& frame, const std::vector<TextPicture>& pictur
   }
 }
 
+void Overlay::setUnseen(const TextFrame& frame) {
+  constexpr int kPixels = 3;  // drivers may compile another program for textures of powers of two
+  const std::vector<std::uint8_t> clear(std::size_t{4} * kPixels * kPixels);
+  set(frame, {{.width = kPixels, .height = kPixels, .cols = kPixels, .rows = kPixels, .rgba = clear}});
+}
+
 void Overlay::draw(double shift_px) const {
   if (parts_.empty()) return;
   const double x_unit = 2.0 / frame_.width, y_unit = 2.0 / frame_.height;

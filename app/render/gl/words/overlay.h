@@ -17,6 +17,8 @@ class Overlay {
 
   // Shown from now on; `frame`: the view that they were drawn for. Those larger than a texture are left out.
   void set(const TextFrame& frame, const std::vector<TextPicture>& pictures);
+  // Instead: a clear spot, so that drawing it makes the driver compile what it needs for words.
+  void setUnseen(const TextFrame& frame);
   // Into the viewport that is set, `shift_px` of the frame to the right.
   void draw(double shift_px) const;
   [[nodiscard]] const TextFrame& frame() const noexcept { return frame_; }
