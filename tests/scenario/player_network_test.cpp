@@ -190,7 +190,8 @@ TEST_F(PlayerNetwork, AMissingPartIsWaitedOut) {
   ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(bugprone-command-processor): a test's own words
   ASSERT_TRUE(std::filesystem::remove(at("part1.ts")));
   const test::HttpServer server(at(""));
-  ASSERT_TRUE(play(server.url("film.m3u8")));
+  EXPECT_FALSE(play(server.url("film.m3u8"))) << "it was not whole";
+  EXPECT_EQ(bench_.faults("film.m3u8 lacks at least 1.9 s"), 1u);
   EXPECT_THAT(server.requests(), testing::Contains("GET /part1.ts 404"));
   EXPECT_THAT(bench_.states(), HasSubstr("ended idle"));
   EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown + bench_.report.frames_dropped), 25 * (kClipSeconds - 2),
