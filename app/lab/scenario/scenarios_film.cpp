@@ -41,6 +41,12 @@ glm::dvec3 below(const Relief& relief, double deep_mm) {
   return {kPlace, relief(kPlace.x, kPlace.y, 0) - deep_mm};
 }
 
+// After a cut the finger has come from outside, and feels the new scene.
+void judgeLastForce(Judge& judge, std::span<const StageTick> ticks, double end_s, const glm::dvec3& wanted_n) {
+  judge.atMost(percentOff(meanForce(between(ticks, end_s - 0.1, end_s)), wanted_n), kForceMatches,
+               "force off for a finger that comes from outside");
+}
+
 }  // namespace
 
 Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
@@ -66,9 +72,7 @@ Verdict cutUp(const Challenger& challenger, bool /*quick*/) {
   judge.atLeast(100 * glm::length(soon) / pressed, kHalfIsFelt, "of the force before the cut is felt 50 ms after it");
   judge.atMost(degreesBetween(soon, normalOf(after, kPlace.x, kPlace.y, 0)), kDirectionMatches,
                "from the new shape 50 ms after the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)),
-                          challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0)),
-               kForceMatches, "force off for a finger that comes from outside");
+  judgeLastForce(judge, ticks, kEnd, challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0));
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
@@ -98,9 +102,7 @@ Verdict cutDown(const Challenger& challenger, bool /*quick*/) {
   judge.atMost(1e3 * late, kDelayUnnoticed, "that the old scene is felt after the cut");
   judge.atMost(100 * peakForce(between(ticks, 0.4, kDown)) / pressed, kNothingAdded,
                "of the force before the cut: peak at the cut");
-  judge.atMost(percentOff(meanForce(between(ticks, kEnd - 0.1, kEnd)),
-                          challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0)),
-               kForceMatches, "force off for a finger that comes from outside");
+  judgeLastForce(judge, ticks, kEnd, challenger.stiffness_n_per_mm * depthOnFlat(after, finger.at(kEnd), 0));
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
