@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t kMostBytesBefore = std::size_t{8} << 20;  // .3 s of a USB stick that gives 30 MB/s
+constexpr std::size_t kMostBytesBefore = std::size_t{8} << 20;  // a USB stick with 30 MB/s needs .3 s for them
 
 }  // namespace
 

@@ -12,7 +12,7 @@ constexpr double kBusy = 0.05, kSpare = 0.5;                   // shares of a sp
 constexpr Duration kLate = std::chrono::milliseconds(250);     // from which on the reader hurries
 constexpr Duration kBetweenHurries = std::chrono::seconds(1);  // it takes that long to see what one has done
 constexpr Duration kLongPatience = std::chrono::minutes(2);
-constexpr Duration kSoon = std::chrono::seconds(30);  // after a recovery: it was too early
+constexpr Duration kSoon = std::chrono::seconds(30);  // late again within this time: the recovery was too early
 
 }  // namespace
 

@@ -14,9 +14,9 @@ constexpr float kNothing = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kVector = 8;   // costs
 constexpr int kReach = 2;            // pixels: of the census
 constexpr std::int16_t kSlope = 12;  // cost of a disparity's change by one, in bits of the census
-constexpr int kOutline = 20;         // levels between neighbours at which a greater one costs half
-constexpr float kAgree = 1;          // pixels
-constexpr int kSpeckOf = 2000;       // a smaller part of the picture is a speck
+constexpr int kOutline = 20;    // where neighbours differ by so many levels, a large change of disparity costs half
+constexpr float kAgree = 1;     // pixels
+constexpr int kSpeckOf = 2000;  // a smaller part of the picture is a speck
 constexpr std::int16_t kHigh = 8000;
 constexpr std::array kAcross{0, 1, -1};  // columns: where paths from another row come from
 
