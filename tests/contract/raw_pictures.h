@@ -71,7 +71,7 @@ inline std::string md5Of(const Frame& frame) {
 // Runs FFmpeg's program. Throws with what it says when it fails.
 inline void runFfmpeg(const std::string& arguments, const std::string& words) {
   const std::string line = "ffmpeg -v error -nostdin -y " + arguments + " 2>" + words;
-  if (std::system(line.c_str()) == 0) return;  // NOLINT(bugprone-command-processor): the test's own command
+  if (std::system(line.c_str()) == 0) return;  // NOLINT(bugprone-command-processor): the test's command
   std::ifstream said(words);
   throw std::runtime_error(line + ": " + std::string(std::istreambuf_iterator<char>(said), {}));
 }

@@ -19,7 +19,7 @@ using Words = std::set<std::string>;
 
 std::string outputOf(const std::string& command) {
   std::string text;
-  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's own command
+  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's command
   for (int c; pipe != nullptr && (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
   EXPECT_EQ(pipe == nullptr ? -1 : ::pclose(pipe), 0) << command;
   return text;

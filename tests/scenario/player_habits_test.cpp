@@ -76,7 +76,7 @@ class PlayerHabits : public testing::Test {
                             " -map 0 -map_chapters 1 -c copy -metadata:s:a:0 language=eng -metadata:s:a:1 language=deu "
                             "-metadata title='A film' " +
                             folder_ / "film.mkv";
-    ASSERT_EQ(std::system(mux.c_str()), 0);  // NOLINT(bugprone-command-processor): the test's own command
+    ASSERT_EQ(std::system(mux.c_str()), 0);  // NOLINT(bugprone-command-processor): the test's command
   }
   void play() {
     player_ = std::make_unique<test::Process>(

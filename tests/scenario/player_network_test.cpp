@@ -187,7 +187,7 @@ TEST_F(PlayerNetwork, AMissingPartIsWaitedOut) {
   const std::string command = "ffmpeg -v quiet -i " + at("film.ts") +
                               " -map 0 -c copy -f hls -hls_time 2 -hls_list_size 0 -hls_segment_filename " +
                               at("part%d.ts") + " " + at("film.m3u8");
-  ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(bugprone-command-processor): the test's own command
+  ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT(bugprone-command-processor): the test's command
   ASSERT_TRUE(std::filesystem::remove(at("part1.ts")));
   const test::HttpServer server(at(""));
   EXPECT_FALSE(play(server.url("film.m3u8"))) << "it was not whole";

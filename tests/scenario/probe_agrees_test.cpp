@@ -21,7 +21,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 bool shell(const std::string& command) {
-  return std::system((command + " </dev/null").c_str()) == 0;  // NOLINT(bugprone-command-processor): the test's own command
+  return std::system((command + " </dev/null").c_str()) == 0;  // NOLINT(bugprone-command-processor): the test's command
 }
 
 class ProbeAgrees : public testing::Test {

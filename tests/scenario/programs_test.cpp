@@ -67,7 +67,7 @@ TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
 test::ProgramResult printInto(const std::string& program, const std::string& file, const std::string& blocks) {
   const std::string command =
       "ulimit -f " + blocks + "; exec " RELIEVO_BIN_DIR "/" + program + " --version 2>&1 >" + file;
-  std::FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's own command
+  std::FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's command
   test::ProgramResult said;
   for (int c = 0; (c = std::fgetc(pipe)) != EOF;) said.err += static_cast<char>(c);
   const int status = ::pclose(pipe);

@@ -32,7 +32,7 @@ using testing::SizeIs;
 
 std::string say(const std::string& command) {
   std::string text;
-  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's own command
+  FILE* const pipe = ::popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor): the test's command
   if (pipe == nullptr) return text;
   std::array<char, 4096> some{};
   while (const std::size_t bytes = std::fread(some.data(), 1, some.size(), pipe)) text.append(some.data(), bytes);

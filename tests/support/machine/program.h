@@ -23,7 +23,7 @@ inline ProgramResult runProgram(const std::string& command_line, const std::stri
   const std::string out = folder + "/stdout.txt", err = folder + "/stderr.txt";
   const std::string command =
       std::string(RELIEVO_BIN_DIR) + "/" + command_line + " >" + out + " 2>" + err + " </dev/null";
-  const int status = std::system(command.c_str());  // NOLINT(bugprone-command-processor): the test's own command
+  const int status = std::system(command.c_str());  // NOLINT(bugprone-command-processor): the test's command
   const auto text = [](const std::string& path) {
     std::ifstream file(path);
     return std::string(std::istreambuf_iterator<char>(file), {});
