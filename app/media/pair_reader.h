@@ -97,7 +97,7 @@ struct PairCounters {
   std::uint64_t missed_pictures = 0;   // pictures captured but never delivered by the sources (MediaSource)
   std::uint64_t reconnects = 0;        // times the colour source was lost and reopened
   std::uint64_t depth_reconnects = 0;  // the same for `depth_url`
-  // Known at a source's end: the part of its announced length that was absent (MediaSource::missing).
+  // Known at a source's end: at least this much of it could not be read (MediaSource::missing).
   Duration missing{0};
   Duration depth_missing{0};  // the same for `depth_url`
 

@@ -134,8 +134,8 @@ class MediaSource {
   // Pictures that were taken but never arrived, as far as the source knows (a camera numbers them), since
   // construction.
   [[nodiscard]] std::uint64_t missedPictures() const noexcept { return missed_; }
-  // How long before the film's end the data broke off. 0 for a whole film, if unknown, and in all states but
-  // Ended.
+  // How much of the film could not be read, at least: behind where the data broke off, and since the last seek also
+  // within it. 0 for a whole film, if unknown, and in all states but Ended.
   [[nodiscard]] Duration missing() const noexcept { return state_ == State::Ended ? missingTime() : Duration(0); }
 
  protected:
