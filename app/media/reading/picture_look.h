@@ -62,5 +62,7 @@ struct FoundPacking {
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
 // hues. Nullopt if the halves do not differ that clearly.
 [[nodiscard]] std::optional<FoundPacking> findPacking(const Frame& picture);
+// The same for a picture of a small palette, whose shades are mixed of several colours.
+[[nodiscard]] std::optional<FoundPacking> findMixedPacking(const Frame& picture);
 
 }  // namespace relievo

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <string>
 
 #include "app/media/pair_reader.h"
 #include "app/scene/height_field.h"
@@ -230,6 +233,58 @@ TEST(Recordings, AUnitOfHuesIsRefused) {
   TemporaryFolder folder;
   makeHalves(folder / "hue.mp4", true, {[](int c, int) { return hueColor(0.2 + 0.6 * c / kSceneCols); }}, kPhoto);
   EXPECT_THAT(open({.url = folder / "hue.mp4", .command_line = {{"unit", "1"}}}).failure, HasSubstr("hue"));
+}
+
+// A GIF (GIF89a) of two pictures, its 125 colours mixed in a pattern of 2 x 2: five shades of red, green and blue.
+// LZW begins anew before its codes grow, so that each code is a byte.
+std::string gifOf(int cols, int rows, const std::function<std::array<double, 3>(int c, int r)>& color) {
+  constexpr int kClear = 128, kEnd = 129, kUntilClear = 100, kMostBlock = 250;
+  const auto word = [](int value) {
+    return std::string{static_cast<char>(value & 255), static_cast<char>(value >> 8)};
+  };
+  std::string codes;
+  for (int i = 0; i < cols * rows; ++i) {
+    if (i % kUntilClear == 0) codes += static_cast<char>(kClear);
+    const int c = i % cols, r = i / cols;
+    int index = 0, component = 0;
+    for (const double part : color(c, r)) {
+      const double threshold = 0.125 + 0.25 * (2 * ((r + component++) % 2) + (c + r) % 2);
+      index = 5 * index + std::clamp(static_cast<int>(4 * part + threshold), 0, 4);
+    }
+    codes += static_cast<char>(index);
+  }
+  codes += static_cast<char>(kEnd);
+  std::string blocks;
+  for (std::size_t at = 0; at < codes.size(); at += kMostBlock) {
+    const std::string block = codes.substr(at, kMostBlock);
+    blocks += static_cast<char>(block.size()) + block;
+  }
+  std::string gif = "GIF89a" + word(cols) + word(rows) + std::string("\xf6\0\0", 3);
+  for (int i = 0; i < 128; ++i) {
+    for (const int shade : {i / 25 % 5, i / 5 % 5, i % 5}) gif += static_cast<char>(255 * shade / 4);
+  }
+  const std::string picture = std::string("\x21\xf9\4\0\x0a\0\0\0", 8) + "," + word(0) + word(0) + word(cols) +
+                              word(rows) + std::string("\0\7", 2) + blocks + std::string(1, '\0');
+  return gif + picture + picture + ";";
+}
+
+TEST(Recordings, HalvesOfAGifAreFoundAlthoughItsGrayIsMixed) {
+  TemporaryFolder folder;
+  const auto gray = [](int c) { return 0.1 + 0.8 * c / kSceneCols; };
+  std::ofstream(folder / "a.gif", std::ios::binary)
+      << gifOf(2 * kSceneCols, kSceneRows, [&](int c, int r) -> std::array<double, 3> {
+           if (c >= kSceneCols) return {gray(c - kSceneCols), gray(c - kSceneCols), gray(c - kSceneCols)};
+           return test::photoOf(c, r);
+         });
+  const Seen seen = open({.url = folder / "a.gif"});
+  ASSERT_EQ(seen.failure, "");
+  EXPECT_EQ(seen.info.packing, Packing::SideBySide);
+  const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
+  for (const int column : {20, 60, 100}) {
+    double sum = 0;
+    for (int i = 0; i < 64; ++i) sum += field.heightMm(column + i % 8, 20 + i / 8) / 64;
+    EXPECT_NEAR(sum / kVolume.depth_mm, gray(column + 4), 0.05) << column;
+  }
 }
 
 }  // namespace
