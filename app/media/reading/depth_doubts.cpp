@@ -96,6 +96,39 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
       100 * colored);
 }
 
+// From black to white or back, in small steps, along one line of samples.
+int swingsAlong(const Frame& depth, bool row, int line) {
+  constexpr double kBlack = 0.1, kWhite = 0.9, kEdge = 0.25;
+  const int length = row ? depth.width : depth.height;
+  int swings = 0, end = 0;  // -1: black, 1: white, 0: none since an edge
+  double before = 0;
+  for (int i = 0; i < length; ++i) {
+    const double shade = row ? colorAt(depth, i, line).green : colorAt(depth, line, i).green;
+    const int here = shade < kBlack ? -1 : shade > kWhite ? 1 : 0;
+    if (std::abs(shade - before) > kEdge) end = 0;
+    if (here * end < 0) ++swings;
+    if (here != 0) end = here;
+    before = shade;
+  }
+  return swings;
+}
+
+std::string doubtPattern(const Frame& depth, const DepthCalibration& calibration) {
+  constexpr int kLines = 64, kMany = 4;
+  if (calibration.code != DepthCode::Luma || depth.components[0].bits != 8) return "";
+  for (const bool row : {true, false}) {
+    const int all = row ? depth.height : depth.width, lines = std::min(kLines, all);
+    int swings = 0;
+    for (int i = 0; i < lines; ++i) swings += swingsAlong(depth, row, (2 * i + 1) * all / (2 * lines));
+    if (swings < kMany * lines) continue;
+    return print(
+        "the depth runs from black to white and back %d times along a line, as RealSense's colours Pattern do: a shade "
+        "means no one distance, so the relief is wrong; record it with the colours Hue or White to Black, or as .bag",
+        swings / lines / 2);
+  }
+  return "";
+}
+
 // Holes around an object follow its outline in the colour; a view has no such holes.
 bool hasManyHoles(const Frame& depth, const DepthCalibration& calibration) {
   constexpr double kMany = 0.1;
@@ -131,6 +164,7 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
   };
   add(doubtRelief(depth, calibration));
+  add(doubtPattern(depth, calibration));
   const bool whole = calibration.code == DepthCode::Luma && !hasManyHoles(depth, calibration);
   if (color != nullptr && whole && areViews(*color, depth)) {
     add("colour and depth show the same picture: two views or a copy, not depth; check --depth");

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
+#include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/depth_reading.h"
 #include "tests/support/film/depth_frames.h"
@@ -61,6 +64,17 @@ TEST(ShadeReading, AFilmsBlackIsOfferedAsAHole) {
   EXPECT_THAT(readingOf(film(8, 17, 18)).offer, Not(HasSubstr(offer))) << "black is one of the shades";
   EXPECT_THAT(readingOf(film(8, 60, 60)).offer, Not(HasSubstr(offer))) << "there is no black";
   EXPECT_THAT(readingOf(film(8, 17, 60), {.command_line = {{"invalid", "none"}}}).offer, Not(HasSubstr(offer)));
+}
+
+// RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
+TEST(ShadeReading, ShadesThatSwingAlongASlopeAreDoubted) {
+  const auto doubts = [](const auto& code) { return doubtsOf(makeGrayFrame(256, 64, 8, {}, code), {}); };
+  const auto pattern = [](int c, int r) { return std::abs((8 * (c + r) & 511) - 255); };
+  EXPECT_THAT(doubts(pattern), Contains(HasSubstr("Pattern")));
+  EXPECT_THAT(doubts([](int, int r) { return std::abs((32 * r & 511) - 255); }), Contains(HasSubstr("Pattern")));
+  EXPECT_THAT(doubts([](int c, int) { return c; }), IsEmpty());
+  EXPECT_THAT(doubts([](int c, int r) { return c / 8 % 2 == 0 ? 0 : 200 + r / 2; }),
+              Not(Contains(HasSubstr("Pattern"))));
 }
 
 }  // namespace
