@@ -142,7 +142,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
   if (clues.code == DepthCode::Hue) {
     read = readHues(look, layers, kind, span, later);
     const bool like_record3d = kind == nullptr && clues.packing == Packing::SideBySideDepthFirst;
-    if (like_record3d && !read.settings.empty()) {
+    if (like_record3d && (!read.settings.empty() || hasRed(look))) {
       read = readHues(look, layers, findKind("record3d"), span, later);
       read.kind = findKind("record3d");
     }

@@ -42,6 +42,9 @@ struct DepthReading {
 // determined from all pictures of `count`. Null if nothing is certain.
 [[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);
 
+// True if a part of the picture, not all of it, is red: in depth coded as a hue, holes or both ends of its range.
+[[nodiscard]] bool hasRed(const Frame& depth);
+
 // The distances at both ends of the hues.
 struct HueSpan {
   double near_mm = 0, far_mm = 3000;  // Record3D's

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int kSteps = DepthCalibration::kHueSteps;
 constexpr int kRed = 32, kBeside = 64;  // steps of hue around red, which coding smears
+// Record3D's film may hold distances up to its farthest, just before red: coding moves a hue by half of this.
+constexpr int kFarRed = 12;
 constexpr float kOffHues = 0.06F;
 constexpr double kRedShare = 0.005;
 constexpr double kOutliers = 0.01, kNearer = 0.9, kFarther = 1.1;
@@ -47,12 +49,13 @@ struct HueCount {
   [[nodiscard]] std::uint64_t red(int steps) const { return within(0, steps) + within(kSteps - steps, kSteps); }
   // The quantile `q` of the hues that are not red.
   [[nodiscard]] int quantile(double q) const {
-    double left = q * static_cast<double>(lit - red(kRed));
-    for (int code = kRed + 1; code < kSteps - kRed; ++code) {
+    constexpr int kEnd = kSteps - kFarRed;
+    double left = q * static_cast<double>(within(kRed + 1, kEnd - 1));
+    for (int code = kRed + 1; code < kEnd; ++code) {
       left -= static_cast<double>(of[static_cast<std::size_t>(code)]);
       if (left <= 0) return code;
     }
-    return kSteps - kRed;
+    return kEnd;
   }
 };
 
@@ -66,7 +69,7 @@ void readReach(const HueCount& count, std::span<const Frame> later, HueSpan span
     most = std::max(most, of_later.quantile(1 - kOutliers));
   }
   const int low = std::max(kRed + 1, static_cast<int>(kNearer * least));
-  const int high = std::min(kSteps - kRed - 1, static_cast<int>(std::ceil(kFarther * most)));
+  const int high = std::min(kSteps - kFarRed - 1, static_cast<int>(std::ceil(kFarther * most)));
   if (high <= low) return;
   const auto mm = [&](int code) { return span.near_mm + (span.far_mm - span.near_mm) * code / kSteps; };
   reading.settings["codes"] = print("%d-%d", low, high);
@@ -76,6 +79,13 @@ void readReach(const HueCount& count, std::span<const Frame> later, HueSpan span
 }
 
 }  // namespace
+
+bool hasRed(const Frame& depth) {
+  if (depth.model == ColorModel::Gray) return false;
+  const HueCount count(depth);
+  const std::uint64_t red = count.red(kRed);
+  return static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && red < count.lit;
+}
 
 DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind, HueSpan span,
                       std::span<const Frame> later) {
@@ -96,7 +106,7 @@ DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const K
     reading.offer += print("%sif the distances are known: --calibration near=MM,far=MM", unknown ? "; " : "");
   }
   if (count.lit == red || (!record3d && !apart) || said.find("invalid") != nullptr) return reading;
-  reading.settings["invalid"] = print("0-%d+%d-%d", kRed, kSteps - kRed, kSteps);
+  reading.settings["invalid"] = print("0-%d+%d-%d", kRed, kSteps - (record3d ? kFarRed : kRed), kSteps);
   reading.why = print("%.1f %% red, apart from the other hues: holes",
                       100 * static_cast<double>(red) / static_cast<double>(count.lit));
   const bool reach_said = said.find("codes") != nullptr || said.find("near") != nullptr || said.find("far") != nullptr;

@@ -54,6 +54,31 @@ TEST(Recordings, Record3DIsToldByItsTagAndByItsLayout) {
   EXPECT_EQ(open({.url = folder / "late.mp4"}).info.packing, Packing::SideBySideDepthFirst);
 }
 
+// Of a scene that goes on beyond 3 m, where red begins: the hues up to there are distances.
+TEST(Recordings, Record3DReachesItsThreeMetres) {
+  const auto mm = [](int c, int r) { return 1.6 * distanceMm(c, r); };
+  const auto isHole = [&](int c, int r) { return mm(c, r) == 0 || mm(c, r) >= 3000; };
+  const Half hue{[&](int c, int r) { return hueColor(isHole(c, r) ? 0 : mm(c, r) / 3000); }};
+  std::vector<double> distances;
+  for (int i = 0; i < kSceneCols * kSceneRows; ++i) {
+    const int c = i % kSceneCols, r = i / kSceneCols;
+    if (!isHole(c, r)) distances.push_back(mm(c, r));
+  }
+  std::ranges::sort(distances);
+  const double holes = 1 - static_cast<double>(distances.size()) / (kSceneCols * kSceneRows);
+  TemporaryFolder folder;
+  makeHalves(folder / "tagged.mp4", true, hue, kPhoto,
+             {{"comment", R"({"intrinsicMatrix":[400,0,0,0,400,0,80,54,1],"rangeOfEncodedDepth":[0,3]})"}});
+  makeHalves(folder / "plain.mp4", true, hue, kPhoto);
+  for (const char* name : {"tagged.mp4", "plain.mp4"}) {
+    const Seen seen = open({.url = folder / name});
+    ASSERT_EQ(seen.failure, "");
+    EXPECT_NEAR(measure(seen).median, distances[distances.size() / 2], 0.01 * distances[distances.size() / 2]) << name;
+    EXPECT_NEAR(measure(seen).holes, holes, 0.01) << name;
+    EXPECT_THAT(seen.info.calibration.calibration.invalid.text(), HasSubstr("+1524-1536")) << name;
+  }
+}
+
 TEST(Recordings, DepthkitsFileGivesNearAndFar) {
   const Half hue{[](int c, int r) {
     const double mm = distanceMm(c, r);
