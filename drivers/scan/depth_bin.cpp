@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kSamples = std::size_t{DepthBin::kCols} * DepthBin::kRows;
 constexpr std::uint32_t kMostPacked = 2 * 4 * kSamples;  // what cannot be packed grows by little
-constexpr std::size_t kMostMarks = 256;
+constexpr std::size_t kMostMarks = 256, kMostPictures = 1'000'000;
 constexpr const char* kNone = "is no depth.bin of ScanNet++, or damaged at its beginning; check the file";
 
 void putMm(std::span<const std::uint8_t> metres, std::vector<std::uint8_t>& mm) {
@@ -78,7 +78,7 @@ std::optional<std::vector<std::uint8_t>> unpackLz4Block(std::span<const std::uin
 // False unless there is a whole picture at the beginning.
 bool DepthBin::list(std::uint64_t end, const std::atomic<bool>& cancelled) {
   std::uint64_t at = 0;
-  while (at < end && !cancelled) {
+  while (at < end && places_.size() < kMostPictures && !cancelled) {
     std::array<std::uint8_t, 4> length{};
     const auto got = file_.read(at, length);
     const auto bytes = ByteReader(length).value<std::uint32_t>();
