@@ -98,7 +98,7 @@ ScreenFacts Player::facts() const {
   const auto place = shelf_place ? browser_->shelf().placeInSection(*shelf_place)
                                  : FilmShelf::Place{programme_.present() + 1, programme_.size()};
   const MediaTime position = film_.place(parts_.clock.now()).value_or(film_.picture().color.pts);
-  const std::string& title = film.title.empty() ? film_.info().title : film.title;
+  const std::string& title = film_.info().title.empty() ? film.title : film_.info().title;
   return {.title = title.empty() ? fileName() : title,
           .position_s = toSeconds(position),
           .duration_s = toSeconds(film_.info().duration),
