@@ -59,6 +59,11 @@ void WindowDisplay::hear(const SDL_Event& event) {
 void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_CLOSE) closed_by_viewer_ = true;
   if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
+  if (event.event == SDL_WINDOWEVENT_MOVED && SDL_GetMouseFocus() == window_) {  // the mouse itself tells nothing then
+    int x = 0, y = 0;
+    SDL_GetGlobalMouseState(&x, &y);
+    moveMouse(x - event.data1, y - event.data2);
+  }
   if (event.event == SDL_WINDOWEVENT_RESIZED && !fillsScreen()) film_size_ = false;  // by the viewer, or the desktop
   if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
   redraw_ = true;

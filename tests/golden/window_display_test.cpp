@@ -102,7 +102,7 @@ TEST_F(WindowDisplay, TheMouseStaysWhereItIsWhileTheWindowFillsTheScreen) {
   {
     const std::jthread manager([&] {
       for (int tries = 0; screen_->takeFullScreenWish() != 1 && tries < 5000; ++tries) std::this_thread::sleep_for(1ms);
-      screen_->fillWith(window_);
+      screen_->move(window_, {0, 0, XScreen::kWidth, XScreen::kHeight});
     });
     display_->fillScreen(FullScreen::On);
   }
@@ -110,6 +110,16 @@ TEST_F(WindowDisplay, TheMouseStaysWhereItIsWhileTheWindowFillsTheScreen) {
   EXPECT_EQ(screen_->mouse(), there);
   display_.reset();
   EXPECT_EQ(screen_->takeFullScreenWish(), 0) << "not left to the next test";
+}
+
+TEST_F(WindowDisplay, AWindowThatMovesBeneathAStillMouseTellsWhatItPointsAtNow) {
+  const int x = place_.x + 150, y = place_.y + 90;
+  display_->setViews({.views = {{.half_width_mm = 100, .half_height_mm = 60}}});
+  screen_->moveMouse(x, y);
+  ASSERT_TRUE(until([&] { return pointsAt(50.5, -30.5); }));
+  screen_->move(window_, {100, 150, 400, 240});
+  EXPECT_TRUE(until([&] { return pointsAt(200 * ((x - 99.5) / 400 - 0.5), 120 * (0.5 - (y - 149.5) / 240)); }))
+      << mouse().ray->screen_mm.x << " " << mouse().ray->screen_mm.y;
 }
 
 // As for the list of films, before there is a film. The screen is 640 x 480.

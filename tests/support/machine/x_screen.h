@@ -42,8 +42,8 @@ class XScreen {
   // What a desktop's settings say to all programs, as "Xft.dpi:\t192\n".
   void setResources(const std::string& text) const;
   void resize(unsigned long window, int width, int height) const;
-  // As a window manager does that fills the screen with a window.
-  void fillWith(unsigned long window) const;
+  // As a window manager does.
+  void move(unsigned long window, const Place& to) const;
   // Where the mouse is, x and y.
   [[nodiscard]] std::array<int, 2> mouse() const;
   // Sends the request of a window manager's close button.
