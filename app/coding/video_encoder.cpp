@@ -213,7 +213,10 @@ Result<void> VideoEncoder::encode(const Planes& planes, MediaTime time, bool key
   if ((key || first) && !stream_tags_.empty() && !attachTags()) {
     return fail(ErrorCode::Exhausted, "out of memory for a picture", ENOMEM);
   }
+  // With a buffer of its own a frame is handed on; without one, FFmpeg would copy it, and the encoder once more.
+  frame_->buf[0] = av_buffer_create(frame_->data[0], 1, [](void*, std::uint8_t*) {}, nullptr, AV_BUFFER_FLAG_READONLY);
   const int code = avcodec_send_frame(codec_.get(), frame_.get());
+  av_buffer_unref(&frame_->buf[0]);
   av_frame_remove_side_data(frame_.get(), AV_FRAME_DATA_SEI_UNREGISTERED);
   if (code < 0) return fail(ErrorCode::Io, "the encoder failed on a picture", osErrorOf(code));
   return handOut(sink);

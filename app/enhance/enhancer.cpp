@@ -113,7 +113,6 @@ std::size_t DepthEnhancer::neighbours() const noexcept {
 void DepthEnhancer::enhance(std::size_t index) {
   Picture& picture = pictures_[index];
   DepthMap map = how_ == Enhancement::SpaceTime ? steadied(index) : std::move(picture.map);
-  if (index >= kNeighbours) pictures_[index - kNeighbours].map = {};  // not needed by the next one
   if (how_ == Enhancement::SpaceTime) fitLines(map, reachFor(3, grain(picture), map.cols));
   if (how_ == Enhancement::Dibm) model(picture, map);
   picture.noise_after = noiseOf(map);
@@ -123,7 +122,8 @@ void DepthEnhancer::enhance(std::size_t index) {
   picture.outcome = writeDepth(map, !outcome_.invalid.empty(), picture.source);
 }
 
-DepthMap DepthEnhancer::steadied(std::size_t index) const {
+// In the memory of the oldest picture, which the next one does not need.
+DepthMap DepthEnhancer::steadied(std::size_t index) {
   std::array<const DepthMap*, kNeighbours> before{};
   std::array<const DepthMap*, kNeighbours> after{};
   const std::size_t pairs = std::min({kNeighbours, index, pictures_.size() - 1 - index});
@@ -133,7 +133,14 @@ DepthMap DepthEnhancer::steadied(std::size_t index) const {
   }
   const Picture& present = pictures_[index];
   const float alike = DepthMap::kLevel + 5 * kAfterMedian * present.noise;
-  return steadyMean(present.map, std::span(before).first(pairs), std::span(after).first(pairs), alike);
+  DepthMap own;
+  DepthMap& mean = index >= kNeighbours ? pictures_[index - kNeighbours].map : own;
+  mean.codes.resize(present.map.size());
+  steadyMean(present.map, std::span(before).first(pairs), std::span(after).first(pairs), alike, mean.codes);
+  mean.holes = present.map.holes;
+  mean.cols = present.map.cols;
+  mean.rows = present.map.rows;
+  return std::move(mean);
 }
 
 // The larger of the noise and the rounding of the source's codes: quantisation steps of a slope are not feature points.

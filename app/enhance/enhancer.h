@@ -78,7 +78,7 @@ class DepthEnhancer {
   void enhanceUntil(std::size_t end);
   [[nodiscard]] bool clean(Picture& picture) const;
   void enhance(std::size_t index);
-  [[nodiscard]] DepthMap steadied(std::size_t index) const;
+  [[nodiscard]] DepthMap steadied(std::size_t index);
   [[nodiscard]] float grain(const Picture& picture) const;
   void model(Picture& picture, DepthMap& map) const;
   void count(const Picture& picture);

@@ -9,25 +9,21 @@
 
 namespace relievo {
 
-DepthMap steadyMean(const DepthMap& present, std::span<const DepthMap* const> before,
-                    std::span<const DepthMap* const> after, float alike) {
-  DepthMap mean = present;
-  const std::size_t pairs = std::min(before.size(), after.size());
+void steadyMean(const DepthMap& present, std::span<const DepthMap* const> before,
+                std::span<const DepthMap* const> after, float alike, std::span<float> mean) {
   inBands(present.rows, [&](int first, int end) {
     for (std::size_t i = present.at(0, first); i < present.at(0, end); ++i) {
-      if (present.holes[i] != 0) continue;
       float sum = present.codes[i], count = 1;
-      for (std::size_t k = 0; k < pairs; ++k) {
+      for (std::size_t k = 0; present.holes[i] == 0 && k < before.size(); ++k) {
         const float earlier = before[k]->codes[i], later = after[k]->codes[i], both = earlier + later;
         const bool known = (before[k]->holes[i] | after[k]->holes[i]) == 0;
         if (!known || std::abs(0.5F * both - present.codes[i]) > alike) continue;
         sum += both;
         count += 2;
       }
-      mean.codes[i] = sum / count;
+      mean[i] = sum / count;
     }
   });
-  return mean;
 }
 
 }  // namespace relievo

@@ -123,7 +123,8 @@ class EnhanceSteadyMean : public testing::Test {
       maps[k].holes[0] = k == hole ? 1 : 0;
     }
     const std::array<const DepthMap*, 2> before{&maps[1], &maps[0]}, after{&maps[3], &maps[4]};
-    return steadyMean(maps[2], before, after, alike).codes[0];
+    steadyMean(maps[2], before, after, alike, maps[0].codes);  // in the place of the oldest
+    return maps[0].codes[0];
   }
 };
 
