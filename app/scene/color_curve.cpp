@@ -133,12 +133,18 @@ ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float 
   return best;
 }
 
-YuvColor ColorCurve::at(double s) const noexcept {
+YuvColor ColorCurve::at(double s) const RELIEVO_RT {
   const double place = std::clamp(s, 0.0, 1.0) * static_cast<double>(pieces_.size());
   const std::size_t k = std::min(static_cast<std::size_t>(place), pieces_.size() - 1);
   const Piece& piece = pieces_[k];
   const auto t = static_cast<float>(place - static_cast<double>(k));
   return {piece.from.y + t * piece.along.y, piece.from.u + t * piece.along.u, piece.from.v + t * piece.along.v};
+}
+
+YuvColor ColorCurve::slopeAt(float s) const RELIEVO_RT {
+  const auto count = static_cast<float>(pieces_.size());
+  const YuvColor& along = pieces_[std::min(static_cast<std::size_t>(s * count), pieces_.size() - 1)].along;
+  return {along.y * count, along.u * count, along.v * count};
 }
 
 const ColorCurve& curveOf(DepthCode code) {

@@ -41,7 +41,9 @@ class ColorCurve {
   // The weight of chroma in `Between::error`.
   static constexpr float kChromaWeight = 0.3F;
   // The colour at s, 0 to 1.
-  [[nodiscard]] YuvColor at(double s) const noexcept;
+  [[nodiscard]] YuvColor at(double s) const RELIEVO_RT;
+  // How much the colour at s changes for a change of 1 in s.
+  [[nodiscard]] YuvColor slopeAt(float s) const RELIEVO_RT;
   [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }
 
  private:

@@ -3,6 +3,7 @@
 #include "app/scene/color_reading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace relievo {
@@ -15,19 +16,38 @@ bool isBlack(const YuvColor& color) noexcept {
   return color.y * color.y + color.u * color.u + color.v * color.v < kNearBlack * kNearBlack;
 }
 
-// The squared distance of a colour from what a sample at an edge between two colours holds: the luma of one side, from
-// which it differs by `luma`, and chroma mixed from both.
-float errorOfMixture(const YuvColor& color, float luma, const YuvColor& one, const YuvColor& other) noexcept {
-  const float along_u = other.u - one.u, along_v = other.v - one.v, u = color.u - one.u, v = color.v - one.v;
-  const float length = along_u * along_u + along_v * along_v;
-  const float share = length > 0 ? std::clamp((u * along_u + v * along_v) / length, 0.0F, 1.0F) : 0;
-  const float off_u = u - share * along_u, off_v = v - share * along_v;
-  return luma * luma + ColorCurve::kChromaWeight * (off_u * off_u + off_v * off_v);
-}
+// Measured on hard and soft edges, H.264 4:2:0 at crf 18 and 23: how far, in s, a surface may be from where it is
+// nearby, and the weight of that beside luma; the share of the other side from which on chroma speaks against a
+// surface.
+constexpr float kMostRise = 0.03F, kRiseWeight = 3, kOtherSide = 0.35F;
 
-// How much better one side of an edge must fit than a place between the two. Measured on hard and soft edges, H.264
-// 4:2:0 at crf 18 and 23.
-constexpr float kSideFits = 2;
+// A reading, and the squared error of the colour that it explains.
+struct Explained {
+  float s = 0, error = 0;
+};
+
+struct Edge {
+  YuvColor own;     // the sample's luma, and chroma mixed from both sides
+  YuvColor placed;  // likewise, but with chroma interpolated to the sample's place
+
+  // How well the sample belongs to the surface that is at `s` nearby, if `other` is the colour of the other side.
+  [[nodiscard]] Explained asSurface(const ColorCurve& curve, float s, const YuvColor& other) const RELIEVO_RT {
+    const YuvColor there = curve.at(static_cast<double>(s)), slope = curve.slopeAt(s);
+    const float fitting = (own.y - there.y) * slope.y / (slope.y * slope.y + kRiseWeight);
+    const float rise = std::clamp(fitting, -kMostRise, kMostRise);
+    const YuvColor here{there.y + rise * slope.y, there.u + rise * slope.u, there.v + rise * slope.v};
+    const float along_u = other.u - here.u, along_v = other.v - here.v, length = along_u * along_u + along_v * along_v;
+    const auto shareOfOther = [&](const YuvColor& color) {
+      const float along = (color.u - here.u) * along_u + (color.v - here.v) * along_v;
+      return length > 0 ? std::clamp(along / length, 0.0F, 1.0F) : 0.0F;
+    };
+    const float mixed = shareOfOther(own), beyond = std::max(shareOfOther(placed) - kOtherSide, 0.0F);
+    const float off_u = own.u - here.u - mixed * along_u, off_v = own.v - here.v - mixed * along_v;
+    const float luma = own.y - here.y, chroma = off_u * off_u + off_v * off_v + beyond * beyond * length;
+    return {std::clamp(s + rise, 0.0F, 1.0F),
+            luma * luma + kRiseWeight * rise * rise + ColorCurve::kChromaWeight * chroma};
+  }
+};
 
 }  // namespace
 
@@ -47,9 +67,10 @@ double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) con
   static constexpr int kBeside[][2] = {{-2, 0}, {2, 0}, {0, -2}, {0, 2}, {-4, 0}, {4, 0}, {0, -4}, {0, 4}};
   const float far_off = curve_->closed() ? kFarOffHues : kFarOffMap;
   constexpr float kNone = std::numeric_limits<float>::infinity();
-  const bool at_seam = reading.distance <= kOnCurve;
+  const bool at_seam = reading.distance <= kOnCurve && !isSure(reading);
   float least = kNone, least_empty = kNone, share = 0, low = 1, high = 0;
-  YuvColor low_color, high_color;
+  std::array<float, std::size(kBeside)> sides{};
+  std::size_t count = 0;
   for (const auto& [across, down] : kBeside) {
     const int col = c + across, row = r + down;
     if (col < 0 || col >= cols_ || row < 0 || row >= rows_) continue;
@@ -58,8 +79,9 @@ double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) con
     const float difference = std::abs(color.y - own.y);
     if (isSure(point)) {
       if (at_seam && std::min(point.s, 1 - point.s) > kBesideSeam) continue;
-      if (point.s < low) low = point.s, low_color = color;
-      if (point.s > high) high = point.s, high_color = color;
+      sides[count++] = point.s;
+      low = std::min(low, point.s);
+      high = std::max(high, point.s);
       if (difference < least) least = difference, share = point.s;
     } else if (point.distance <= kOnCurve || (point.distance > far_off && isBlack(color))) {
       least_empty = std::min(least_empty, difference);
@@ -67,12 +89,22 @@ double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) con
   }
   // A dark colour whose chroma is mixed with its complement's looks black as well.
   if (!at_seam && least_empty + kDarker < least) return kHole;
-  if (least < kNone && !at_seam) {
-    const ColorCurve::Between between = curve_->between(own, low, high);
-    if (between.error < kSideFits * errorOfMixture(own, least, low_color, high_color)) share = between.s;
+  if (count == 0) return at_seam || reading.distance > far_off ? kHole : static_cast<double>(reading.s);
+  if (at_seam) return static_cast<double>(share);
+  return static_cast<double>(shareAtEdge(c, r, own, std::span(sides).first(count), low, high));
+}
+
+float ColorReading::shareAtEdge(int c, int r, const YuvColor& own, std::span<const float> sides, float low,
+                                float high) const RELIEVO_RT {
+  const Edge edge{own, samples_.interpolatedAt(c, r, cols_, rows_)};
+  const YuvColor low_color = curve_->at(static_cast<double>(low)), high_color = curve_->at(static_cast<double>(high));
+  const ColorCurve::Between between = curve_->between(edge.placed, low, high);
+  Explained best{between.s, between.error};
+  for (const float side : sides) {
+    const Explained one = edge.asSurface(*curve_, side, side - low > high - side ? low_color : high_color);
+    if (one.error < best.error) best = one;
   }
-  if (least < kNone) return static_cast<double>(share);
-  return at_seam || reading.distance > far_off ? kHole : static_cast<double>(reading.s);
+  return best.s;
 }
 
 }  // namespace relievo

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "app/scene/color_curve.h"
 #include "app/scene/color_samples.h"
@@ -15,11 +16,13 @@ namespace relievo {
 // Trivially copyable. Does not own the samples. A position is 0 to 1 along the ColorCurve, or NaN at a hole.
 //
 // It is the point of the curve that is nearest to the sample's colour. Subsampled chroma mixes the two sides of a depth
-// edge to a colour off the curve. Such a sample takes the reading of the nearby sample whose brightness is most like
-// its own, since brightness is not subsampled; if that one is black or red, it is a hole. Where the edge is soft, and a
-// point of the curve between the two sides explains the colour better, that point is used. If no nearby sample is on
-// the curve, the sample's own reading is used if its colour is not far off. Red, where both ends of the depth meet on
-// the circle of hues, is a hole in YUV unless a surface beside it ends there.
+// edge to a colour off the curve. Such a sample belongs to one of the surfaces nearby: a small change of that surface's
+// height explains its brightness, which is not subsampled; a mixture with the other side explains its chroma; and
+// chroma interpolated to its place holds the larger part of it. Where the edge is soft, and a point of the curve
+// between the two sides explains the colour better, that point is used. If the nearby sample that is most like it
+// in brightness is black or red, it is a hole. If no nearby sample is on the curve, the sample's own reading is used if
+// its colour is not far off. Red, where both ends of the depth meet on the circle of hues, is a hole in YUV unless a
+// surface beside it ends there.
 class ColorReading {
  public:
   ColorReading() = default;  // reads nothing
@@ -30,7 +33,8 @@ class ColorReading {
   [[nodiscard]] double shareAt(int c, int r) const RELIEVO_RT {
     const YuvColor own = samples_.at(c, r);
     const ColorCurve::Point reading = curve_->nearest(own);
-    return isSure(reading) ? static_cast<double>(reading.s) : shareBeside(c, r, own, reading);
+    return reading.distance <= kUnmixed && isSure(reading) ? static_cast<double>(reading.s)
+                                                           : shareBeside(c, r, own, reading);
   }
   // Colours that differ little lie on one straight piece of the curve, or nearly so: their mean is the colour of the
   // mean height. A hole if they differ more, or stand for no depth.
@@ -54,10 +58,15 @@ class ColorReading {
   }
   [[nodiscard]] double shareBeside(int c, int r, const YuvColor& own,
                                    const ColorCurve::Point& reading) const RELIEVO_RT;
+  // `sides`: the readings nearby, from `low` to `high`.
+  [[nodiscard]] float shareAtEdge(int c, int r, const YuvColor& own, std::span<const float> sides, float low,
+                                  float high) const RELIEVO_RT;
 
   // Distance of a colour from the curve, in ColorCurve's coordinates. Measured on H.264 4:2:0 at crf 18 to 23: nine of
   // ten samples are nearer than 0.01, mixed ones farther than 0.05.
   static constexpr float kOnCurve = 0.06F;
+  // A sample that is farther is compared with those nearby: two hues that are close mix to a colour near the curve.
+  static constexpr float kUnmixed = 0.02F;
   // Half the width of the circle's seam: coding moves a hue by 0.0044 in one sample of twenty.
   static constexpr float kSeam = 0.006F;
 

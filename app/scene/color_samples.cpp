@@ -89,6 +89,20 @@ std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock&
   return colorOf(mean[0], mean[1], mean[2]);
 }
 
+// A luma sample is a quarter of the chroma samples' distance from the nearest one.
+YuvColor ColorSamples::interpolatedAt(int c, int r, int cols, int rows) const RELIEVO_RT {
+  const auto beside = [](int at, int shift, int size) {
+    const int width = 1 << shift;
+    return shift == 0 ? at : std::clamp((at & width >> 1) != 0 ? at + width : at - width, 0, size - 1);
+  };
+  const int col = beside(c, shift_x_, cols), row = beside(r, shift_y_, rows);
+  const YuvColor own = at(c, r), across = at(col, r), down = at(c, row), both = at(col, row);
+  const auto mean = [](float near, float side, float below, float far) {
+    return (9 * near + 3 * side + 3 * below + far) / 16;
+  };
+  return {own.y, mean(own.u, across.u, down.u, both.u), mean(own.v, across.v, down.v, both.v)};
+}
+
 std::optional<YuvColor> ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   return words_ ? meanOf<true>(c0, r0, block) : meanOf<false>(c0, r0, block);
 }

@@ -26,6 +26,9 @@ class ColorSamples {
     const float second = codeAt(1, c >> shift_x_, r >> shift_y_), third = codeAt(2, c >> shift_x_, r >> shift_y_);
     return colorOf(first, second, third);
   }
+  // The colour of (c, r) with chroma interpolated to its place, from the four chroma samples around it. `cols` and
+  // `rows`: of the picture.
+  [[nodiscard]] YuvColor interpolatedAt(int c, int r, int cols, int rows) const RELIEVO_RT;
   // The mean colour of the block's samples; nullopt if the second or third component varies by more than a quarter of
   // full scale.
   [[nodiscard]] std::optional<YuvColor> meanOfEvenBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;

@@ -76,6 +76,7 @@ TEST(ColorMaps, AColourFarOffTheMapIsAHole) {
 struct Film {
   int cols = 48, rows = 32;
   std::function<Rgb(int, int)> color;
+  bool blurred = false;  // luma: 1/4, 1/2, 1/4 across
 
   [[nodiscard]] Frame frame() const {
     const auto samples = std::make_shared<std::vector<std::uint8_t>>();
@@ -84,7 +85,10 @@ struct Film {
     };
     const auto luma = [&](const Rgb& k) { return 0.2126 * k[0] + 0.7152 * k[1] + 0.0722 * k[2]; };
     for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < cols; ++c) put(luma(color(c, r)));
+      for (int c = 0; c < cols; ++c) {
+        const double own = luma(color(c, r));
+        put(blurred ? own / 2 + (luma(color(c - 1, r)) + luma(color(c + 1, r))) / 4 : own);
+      }
     }
     for (const std::size_t part : {2U, 0U}) {
       const double span = part == 2 ? 1.8556 : 1.5748;
@@ -149,6 +153,32 @@ TEST(HueOverYuv, EverySampleAtAnEdgeIsOneSideOrTheOther) {
     EXPECT_LE(holes, 1) << left << ' ' << right << ": in the corner";
     EXPECT_LE(wrong_side, 8) << left << ' ' << right << ": brightness tells the sides apart";
   }
+}
+
+// A ball before a wall that is nearly as bright as its rim, and luma blurred as codecs do: neither brightness nor
+// chroma alone tells the sides apart.
+TEST(HueOverYuv, ARoundBallKeepsItsRim) {
+  const auto truth = [](int c, int r) {
+    const double out = std::hypot(c - 23.3, r - 15.8) / 13.2;
+    return out < 1 ? 0.66 + 0.09 * out * out : 0.95;
+  };
+  const Film film{.color = [&](int c, int r) { return hue(truth(c, r)); }, .blurred = true};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  int off = 0;
+  for (int r = 0; r < 32; ++r) {
+    for (int c = 0; c < 48; ++c) off += std::abs(field.heightMm(c, r) - truth(c, r)) < 0.05 ? 0 : 1;
+  }
+  EXPECT_EQ(off, 0) << "of 150 at the rim";
+}
+
+// A step so low that the mixture of its colours is near the circle of hues.
+TEST(HueOverYuv, ALowStepIsAsSharpAsItsBrightness) {
+  const auto truth = [](int c) { return c >= 17 ? 0.8 : 0.7; };
+  const Film film{.color = [&](int c, int) { return hue(truth(c)); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c < 48; ++c) EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.02) << c;
 }
 
 // Of an edge that takes five samples, those in its middle are on neither side.
