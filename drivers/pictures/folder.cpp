@@ -12,6 +12,7 @@
 
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/odometry.h"
+#include "drivers/pictures/other_files.h"
 #include "drivers/pictures/roles.h"
 #include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
@@ -24,9 +25,6 @@ namespace {
 constexpr std::array<std::string_view, 4> kAssociations{"associations.txt", "associate.txt", "association.txt",
                                                         "assoc.txt"};
 constexpr const char* kNoPictures = "there is no picture in this folder; name a folder of pictures or a film";
-constexpr const char* kRos2Bag =
-    "this folder is a ROS 2 bag; convert it to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert --src "
-    "FOLDER --dst film.bag";
 constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
 constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
@@ -72,7 +70,7 @@ bool matches(const Pattern& pattern, const std::string& name) {
 struct Listing {
   std::vector<std::string> pictures, folders;
   std::size_t films = 0;
-  bool ros2_bag = false;
+  const char* way = nullptr;  // to convert the first of the rest that can be
 };
 Result<Listing> listingOf(const std::string& folder) {
   const auto entries = listFolder(folder.empty() ? "." : folder);
@@ -80,7 +78,7 @@ Result<Listing> listingOf(const std::string& folder) {
   Listing listing;
   for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
-    listing.ros2_bag = listing.ros2_bag || name.ends_with(".db3") || name.ends_with(".mcap");
+    if (listing.way == nullptr) listing.way = wayToConvert(name);
     const MediaKind kind = mediaKindOf(name);
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);
     else if (kind == MediaKind::Film) ++listing.films;
@@ -250,7 +248,7 @@ Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
     return *std::move(below);
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
-  if (listing->pictures.empty() && listing->ros2_bag) return fail(ErrorCode::Unsupported, kRos2Bag);
+  if (listing->pictures.empty() && listing->way != nullptr) return fail(ErrorCode::Unsupported, listing->way);
   if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   if (found.depth.names.empty()) takeOdometryTimes(found);

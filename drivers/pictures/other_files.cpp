@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/other_files.h"
+
+#include <string>
+
+#include "hal/media/media_names.h"
+
+namespace relievo::pictures {
+namespace {
+
+constexpr const char* kRos2Bag =
+    "this folder is a ROS 2 bag; convert it to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert --src "
+    "FOLDER --dst film.bag";
+constexpr const char* kRaw =
+    "this folder holds raw numbers without a picture size; convert each file: ffmpeg -f rawvideo -pix_fmt gray16le "
+    "-video_size WIDTHxHEIGHT -i FILE FILE.png";
+constexpr const char* kArchives =
+    "this folder holds archives of arrays; convert them: python3 -c 'import glob, numpy; [numpy.save(f[:-4], "
+    "numpy.load(f)[\"depth\"]) for f in glob.glob(\"FOLDER/*.npz\")]', depth being the array's name";
+constexpr const char* kHdf5 =
+    "this folder holds HDF5 files; convert them: python3 -c 'import glob, h5py, numpy; [numpy.save(f, "
+    "next(iter(h5py.File(f).values()))) for f in glob.glob(\"FOLDER/*5\")]', or name their dataset";
+constexpr const char* kMatlab =
+    "this folder holds MATLAB files; convert them: python3 -c 'import glob, numpy, scipy.io; [numpy.save(f[:-4], "
+    "scipy.io.loadmat(f)[\"NAME\"]) for f in glob.glob(\"FOLDER/*.mat\")]', NAME being the variable with the depth";
+struct Way {
+  const char *ending, *line;
+};
+constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},   {"yuv", kRaw},
+                         {"npz", kArchives}, {"hdf5", kHdf5},    {"h5", kHdf5}, {"mat", kMatlab}};
+
+}  // namespace
+
+const char* wayToConvert(std::string_view name) {
+  const std::string ending = endingOf(name);
+  for (const Way& way : kWays) {
+    if (ending == way.ending) return way.line;
+  }
+  return nullptr;
+}
+
+}  // namespace relievo::pictures
