@@ -108,7 +108,8 @@ std::vector<std::string> withoutOthers(std::vector<std::string> names, std::size
 void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
   std::map<Role, std::vector<std::string>> by_role;
   for (const std::string& name : names) by_role[roleOf(name)].push_back(name);
-  const auto& depth = by_role[Role::Depth];
+  auto& depth = by_role[Role::Depth];
+  if (!std::ranges::all_of(depth, isPaintedDepth)) std::erase_if(depth, isPaintedDepth);
   if (depth.empty()) {
     found.color = {folder, oneKind(names, found.left_out)};
     return;

@@ -39,6 +39,10 @@ bool holdsOne(const std::vector<std::string>& words, const std::array<std::strin
 // Depth in the colour's view, where both are there (RealSense, OpenLORIS, ROS, Azure Kinect).
 constexpr std::array<std::string_view, 3> kInColorsView{"aligned", "registered", "transformed"};
 
+// Depth painted for the eye, beside the codes themselves.
+constexpr std::array<std::string_view, 10> kPainted{"vis",      "viz",       "visual", "visualization", "colored",
+                                                    "coloured", "colorized", "color",  "colormap",      "heatmap"};
+
 // NYU's raw files: "d-1294886362.665769-3143787185.pgm".
 bool beginsWith(std::string_view name, char letter) {
   return name.size() > 2 && name[0] == letter && name[1] == '-' &&
@@ -54,12 +58,17 @@ Role roleOf(std::string_view name) {
   return holdsOne(words, kColor) || beginsWith(name, 'r') ? Role::Color : Role::Unsaid;
 }
 
+bool isPaintedDepth(std::string_view name) {
+  return roleOf(name) == Role::Depth && holdsOne(wordsOf(name), kPainted);
+}
+
 std::string bestOf(const std::vector<std::string>& names, Role role) {
   std::vector<std::string> found;
   std::ranges::copy_if(names, std::back_inserter(found), [role](const auto& name) { return roleOf(name) == role; });
   if (found.empty()) return "";
   return *std::ranges::min_element(found, [](const std::string& a, const std::string& b) {
     const auto words_a = wordsOf(a), words_b = wordsOf(b);
+    if (isPaintedDepth(a) != isPaintedDepth(b)) return isPaintedDepth(b);
     const bool aligned_a = holdsOne(words_a, kInColorsView), aligned_b = holdsOne(words_b, kInColorsView);
     if (aligned_a != aligned_b) return aligned_a;
     return words_a.size() != words_b.size() ? words_a.size() < words_b.size() : naturalLess(a, b);

@@ -19,8 +19,11 @@ enum class Role : std::uint8_t {
 // By the words in `name`, which anything but letters parts; "d-12.pgm" and "r-12.ppm" are depth and colour.
 [[nodiscard]] Role roleOf(std::string_view name);
 
-// The best of the `names` with this role: the one that says that it is in the colour's view ("aligned_depth"), else the
-// one that is nothing but the word, else the first in natural order. Empty if none has it.
+// Whether a name of depth says that it is painted for the eye: "depth_vis", "depth_colormap".
+[[nodiscard]] bool isPaintedDepth(std::string_view name);
+
+// The best of the `names` with this role; empty if none has it. Depth that is not painted goes first, then what is in
+// the colour's view ("aligned_depth"), then what is nothing but the word, then the first in natural order.
 [[nodiscard]] std::string bestOf(const std::vector<std::string>& names, Role role);
 
 }  // namespace relievo::pictures

@@ -206,6 +206,17 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   EXPECT_THAT(read(folder_ / "scan").depth, ElementsAre("0 scan/depth_1.png"));
 }
 
+TEST_F(Pictures, DepthThatIsPaintedIsTakenOnlyWhereThereIsNoOther) {
+  for (const char* name : {"a/color_0", "a/depth_0", "a/depth_vis_0", "b/rgb/0", "b/depth_raw/0", "b/depth_colored/0",
+                           "c/0_rgb", "c/0_depth", "c/0_depth_colormap", "d/color_0", "d/depth_vis_0"}) {
+    file(std::string(name) + ".png");
+  }
+  EXPECT_THAT(read(folder_ / "a").depth, ElementsAre("0 a/depth_0.png"));
+  EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/depth_raw/0.png"));
+  EXPECT_THAT(read(folder_ / "c").depth, ElementsAre("0 c/0_depth.png"));
+  EXPECT_THAT(read(folder_ / "d").depth, ElementsAre("0 d/depth_vis_0.png"));
+}
+
 TEST_F(Pictures, NamesThatDoNotCorrespondArePairedInTheirOrder) {
   file("s/image/NYU0001.jpg"), file("s/depth/kv7.png");
   const Film film = read(folder_ / "s");
