@@ -82,7 +82,7 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
   if (calibration.code != DepthCode::Luma || depth.model == ColorModel::Gray) return "";
   const PictureLook look = lookAt(depth);
   const double colored = 1 - look.gray;
-  if (colored <= kColored) return "";
+  if (colored <= kColored || 1 - lookAtMeans(depth).gray <= kColored) return "";
   if (color != nullptr && lookAt(*color).gray >= kGray) {
     return print(
         "%.0f %% of the depth is coloured and the colour is gray: they look exchanged; give the other as --depth",

@@ -179,6 +179,10 @@ PictureLook lookAt(const Frame& picture) noexcept {
   return look;
 }
 
+PictureLook lookAtMeans(const Frame& picture) {
+  return lookAt(meansOf(picture));
+}
+
 bool isHue(const PictureLook& look) noexcept {
   return look.vivid >= kAllVivid && look.dark <= kMostDark;
 }

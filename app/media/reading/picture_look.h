@@ -29,6 +29,9 @@ struct PictureLook {
 // Any thread.
 [[nodiscard]] PictureLook lookAt(const Frame& picture) noexcept;
 
+// Likewise, of the means of 4 x 4 samples: colours that a small palette mixes are what they are mixed to.
+[[nodiscard]] PictureLook lookAtMeans(const Frame& picture);
+
 // True if nearly every lit sample has a pure colour: depth coded as a hue, or through a colour map.
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;
 // True if the picture is one of red shades: brightness in the red component alone.

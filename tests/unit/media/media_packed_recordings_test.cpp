@@ -304,6 +304,7 @@ TEST(Recordings, HalvesOfAGifAreFoundAlthoughItsGrayIsMixed) {
   const Seen seen = open({.url = folder / "a.gif"});
   ASSERT_EQ(seen.failure, "");
   EXPECT_EQ(seen.info.packing, Packing::SideBySide);
+  EXPECT_THAT(seen.info.reading.doubts, IsEmpty());
   const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
   for (const int column : {20, 60, 100}) {
     double sum = 0;
