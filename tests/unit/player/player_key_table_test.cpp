@@ -208,7 +208,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 123);
+  EXPECT_EQ(names, 124);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
