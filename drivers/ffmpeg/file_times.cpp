@@ -112,8 +112,6 @@ Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& en
 constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe", brokenPicture},
                                OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone}};
 
-// Their segments are read one after the other; one that cannot be opened is passed over.
-constexpr std::array<std::string_view, 2> kListed{"dash", "hls"};
 constexpr Duration kBehindBroken = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
 constexpr Duration kUsualPicture = std::chrono::milliseconds(40);   // where its length is unknown
 
@@ -140,10 +138,6 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
   } else if (packet.pts) {
     *packet.pts += mended_by_;
   }
-}
-
-bool FileGaps::tellsAll(const AVFormatContext& context) noexcept {
-  return std::ranges::find(kListed, context.iformat->name) != kListed.end();
 }
 
 void FileGaps::begin() noexcept {

@@ -31,8 +31,6 @@ class FileTimes {
 // What is missing within a film: FFmpeg passes over what it cannot read, such as a segment of a list.
 class FileGaps {
  public:
-  // True for a list of segments: its times have gaps only where one of them is passed over.
-  [[nodiscard]] static bool tellsAll(const AVFormatContext& context) noexcept;
   // At the beginning, or after a seek.
   void begin() noexcept;
   // Logs a gap before the packet if the packet or one just before is `broken`: elsewhere a picture may just last longer.

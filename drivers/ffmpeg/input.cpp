@@ -78,9 +78,17 @@ Result<Input::Opened> Input::open(const std::string& url) {
   watch_.begin(kOpenPatience, late);
   const int found = findStreams(*context);
   const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // a slow stream may be known enough
+  lost_ += words.passedOver() ? 1 : 0;
   if (found < 0 || gave_up) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
   if (isTextArt(*context)) return std::unexpected(refusal(*address, AVERROR_INVALIDDATA, {}));
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
+}
+
+int Input::readFrame(AVFormatContext& container, AVPacket& packet) {
+  const LibraryWords words;
+  const int got = av_read_frame(&container, &packet);
+  lost_ += words.passedOver() ? 1 : 0;
+  return got;
 }
 
 // `file` stays null for sources that FFmpeg opens itself: remote ones, and names that are patterns.

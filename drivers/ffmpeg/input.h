@@ -39,6 +39,10 @@ class Input {
     opens_ = 0;
     tells_lost_ = true;
   }
+  // As av_read_frame, of the container that was opened here.
+  int readFrame(AVFormatContext& container, AVPacket& packet);
+  // Parts of the film could not be opened since it was opened.
+  [[nodiscard]] bool hasLostParts() const noexcept { return lost_ > 0; }
   [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }
   void closePipe() noexcept { pipe_.reset(); }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdarg>
 
 #include "drivers/ffmpeg/library.h"
 
@@ -15,15 +14,7 @@ extern "C" {
 namespace relievo::ffmpeg {
 namespace {
 
-thread_local std::string* words_of_thread = nullptr;
-
-void keep(void* context, int level, const char* format, va_list arguments) {
-  if (words_of_thread == nullptr || level > AV_LOG_ERROR) return;
-  std::array<char, 256> line;
-  int prefixed = 1;
-  av_log_format_line(context, level, format, arguments, line.data(), static_cast<int>(line.size()), &prefixed);
-  *words_of_thread = line.data();
-}
+thread_local LibraryWords* words_of_thread = nullptr;
 
 bool has(std::string_view text, std::string_view part) noexcept {
   return text.find(part) != std::string_view::npos;
@@ -31,10 +22,20 @@ bool has(std::string_view text, std::string_view part) noexcept {
 
 }  // namespace
 
+void LibraryWords::keep(void* context, int level, const char* format, va_list arguments) {
+  if (words_of_thread == nullptr) return;
+  if (has(format, "Failed to open fragment")) words_of_thread->passed_over_ = true;
+  if (level > AV_LOG_ERROR) return;
+  std::array<char, 256> line;
+  int prefixed = 1;
+  av_log_format_line(context, level, format, arguments, line.data(), static_cast<int>(line.size()), &prefixed);
+  words_of_thread->last_ = line.data();
+}
+
 LibraryWords::LibraryWords() noexcept {
   static const bool listening = (av_log_set_callback(keep), true);
   static_cast<void>(listening);
-  words_of_thread = &last_;
+  words_of_thread = this;
 }
 
 LibraryWords::~LibraryWords() {

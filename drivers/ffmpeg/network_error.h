@@ -2,6 +2,7 @@
 // What went wrong with a network source: one sentence for each kind of failure.
 #pragma once
 
+#include <cstdarg>
 #include <string>
 #include <string_view>
 
@@ -19,9 +20,14 @@ class LibraryWords {
   LibraryWords& operator=(const LibraryWords&) = delete;
 
   [[nodiscard]] const std::string& last() const noexcept { return last_; }
+  // FFmpeg has left out a segment of a DASH film that it could not open. It opens them itself.
+  [[nodiscard]] bool passedOver() const noexcept { return passed_over_; }
 
  private:
+  static void keep(void* context, int level, const char* format, va_list arguments);
+
   std::string last_;
+  bool passed_over_ = false;
 };
 
 // `code` is FFmpeg's, of opening a network source; `words` are the last that it logged.

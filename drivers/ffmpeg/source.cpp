@@ -92,7 +92,7 @@ class FfmpegSource final : public MediaSource {
     const std::size_t most = address_.flows() ? kFlowTagPackets : kTagPackets;
     while (!wanted.empty() && ahead_.size() < most) {
       PacketPtr packet(av_packet_alloc());
-      if (!packet || av_read_frame(context_.get(), packet.get()) < 0) return;  // `readPacket` gets the error again
+      if (!packet || input_.readFrame(*context_, *packet) < 0) return;  // `readPacket` gets the error again
       const auto found = wanted.find(packet->stream_index);
       if (found != wanted.end() && (packet->flags & AV_PKT_FLAG_KEY) != 0) {
         stream_tags_[found->first] = streamTags(*packet, *found->second->codecpar);
@@ -157,7 +157,7 @@ class FfmpegSource final : public MediaSource {
 
   // Returns FFmpeg's code, like av_read_frame.
   int readNext(PacketPtr& packet) {
-    if (ahead_.empty()) return av_read_frame(context_.get(), packet.get());
+    if (ahead_.empty()) return input_.readFrame(*context_, *packet);
     packet = std::move(ahead_.front());
     ahead_.pop_front();
     return 0;
@@ -213,7 +213,7 @@ class FfmpegSource final : public MediaSource {
     if (out.pts) *out.pts += offset;
     const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
     const bool is_flow = address_.flows() || kindOf(*context_->streams[packet.stream_index]) == StreamKind::Subtitle;
-    if (!is_flow) gaps_.note(out, length, broken || FileGaps::tellsAll(*context_), url_);
+    if (!is_flow) gaps_.note(out, length, broken || input_.hasLostParts(), url_);
     end_.note(out, length, broken, packet.pos);
   }
 

@@ -249,6 +249,23 @@ TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
   }
 }
 
+// A picture that stands for 1.5 s is told by the next one's time alone.
+TEST(FfmpegSource, ASegmentedFilmWhosePicturesLastLongIsWhole) {
+  TemporaryFolder folder;
+  const std::string make =
+      "cd '" + folder / "" +
+      "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=10:d=4 -vf "
+      "\"select='not(between(n,12,26))'\" -vsync vfr -c:v libx264 -g 10 a.mkv && ffmpeg -nostdin -v "
+      "error -i a.mkv -c copy -f dash a.mpd -c copy -hls_playlist_type vod a.m3u8";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  for (const char* name : {"a.mpd", "a.m3u8"}) {
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_EQ(readAll(*source).size(), 25U) << name;
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+  }
+}
+
 // 48 pictures are 2 s. The container's end is that of a subtitle. If a seek skips it, no packet that was read reaches
 // that end, but nothing is missing.
 TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
