@@ -136,14 +136,12 @@ PictureFiles picturesIn(const std::string& folder, FoundPictures& found) {
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
-    if (name.empty()) return {};
-    return picturesIn(folder + name + "/", found);
+    return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", found);
   };
   found.color = open(Role::Color);
   found.depth = open(Role::Depth);
-  if (found.color.names.empty() && !found.depth.names.empty()) {
+  if (found.color.names.empty() && !found.depth.names.empty())
     found.color = {folder, oneKind(listing.pictures, found.left_out)};
-  }
   return !found.color.names.empty() || !found.depth.names.empty();
 }
 
@@ -221,7 +219,7 @@ std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
 
 Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = true);
 
-// For a folder without pictures: the recording in its only sub-folder that has one ("keyframes", "results").
+// For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results").
 std::optional<FoundPictures> findBelow(const std::string& folder, const Listing& listing) {
   constexpr std::size_t kMostFolders = 16;
   std::optional<FoundPictures> found;
@@ -243,10 +241,12 @@ Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
   const auto listing = listingOf(folder);
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
-  if (sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found)) return found;
+  const bool sorted = sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found);
+  if (sorted && !found.depth.names.empty() && !found.color.names.empty()) return found;
   if (auto below =
           goes_down && listing->pictures.empty() && listing->films == 0 ? findBelow(folder, *listing) : std::nullopt)
     return *std::move(below);
+  if (sorted) return found;
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
   if (listing->pictures.empty() && listing->way != nullptr) return fail(ErrorCode::Unsupported, listing->way);

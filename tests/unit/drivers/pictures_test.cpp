@@ -206,6 +206,16 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   EXPECT_THAT(read(folder_ / "scan").depth, ElementsAre("0 scan/depth_1.png"));
 }
 
+// LabelFusion; a folder for each camera.
+TEST_F(Pictures, AFolderNamedForColourMayHoldBoth) {
+  file("l/images/1_rgb.png"), file("l/images/1_depth.png"), file("l/images/1_labels.png");
+  EXPECT_THAT(read(folder_ / "l").color, ElementsAre("0 l/images/1_rgb.png"));
+  EXPECT_THAT(read(folder_ / "l").depth, ElementsAre("0 l/images/1_depth.png"));
+  file("c/cam_0/rgb/1.png"), file("c/cam_0/depth/1.png");
+  EXPECT_THAT(read(folder_ / "c").color, ElementsAre("0 c/cam_0/rgb/1.png"));
+  EXPECT_THAT(read(folder_ / "c").depth, ElementsAre("0 c/cam_0/depth/1.png"));
+}
+
 TEST_F(Pictures, DepthThatIsPaintedIsTakenOnlyWhereThereIsNoOther) {
   for (const char* name : {"a/color_0", "a/depth_0", "a/depth_vis_0", "b/rgb/0", "b/depth_raw/0", "b/depth_colored/0",
                            "c/0_rgb", "c/0_depth", "c/0_depth_colormap", "d/color_0", "d/depth_vis_0"}) {
