@@ -33,8 +33,8 @@ class FileGaps {
  public:
   // At the beginning, or after a seek.
   void begin() noexcept;
-  // Logs a gap before the packet if the packet or one just before is `broken`: elsewhere a picture may just last longer.
-  // Of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
+  // Logs a gap before the packet if the packet or one just before is `broken`: elsewhere a picture may just last
+  // longer. Of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
   void note(const Packet& packet, Duration length, bool broken, const std::string& url);
   // Of the stream that lacks most.
   [[nodiscard]] Duration missing() const noexcept;
