@@ -11,7 +11,7 @@
 #include "drivers/ffmpeg/pictures/picture.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/huge_page_marks.h"
-#include "tests/unit/drivers/decoded_clip.h"
+#include "tests/unit/drivers/ffmpeg/decoded_clip.h"
 
 namespace relievo::test {
 namespace {

@@ -5,7 +5,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
-#include "tests/unit/drivers/ffmpeg_sources.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
 namespace {

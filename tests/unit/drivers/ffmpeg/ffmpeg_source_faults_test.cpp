@@ -13,7 +13,7 @@
 #include "drivers/ffmpeg/watch.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/ts_patch.h"
-#include "tests/unit/drivers/ffmpeg_sources.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
 namespace {

@@ -17,7 +17,7 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
 #include "tests/support/network/http_server.h"
-#include "tests/unit/drivers/ffmpeg_sources.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
 namespace {

@@ -8,7 +8,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/pictures/picture.h"
 #include "tests/support/film/clip_maker.h"
-#include "tests/unit/drivers/decoded_clip.h"
+#include "tests/unit/drivers/ffmpeg/decoded_clip.h"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
