@@ -222,7 +222,7 @@ void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps) 
          },
          "What the surface feels like: stiffness=N/MM, friction=STATIC/DYNAMIC: coefficients,\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm, such as stiffness=.3,friction=.2/.15,texture=.1@.8. Or at each\n"
-         "place: FILE, a picture painted over the first picture of the film, which follows its objects until the cut,\n"
+         "place: FILE, a picture painted over the film's first one; the paint follows the objects to the first cut;\n"
          "0=FILE,SECONDS=FILE,..: a painting for each shot, from its first picture on, or a film of such pictures. "
          "Red\n"
          "is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent is not painted.\n"

@@ -97,7 +97,7 @@ constexpr const char* kQuick = ":sliced-threads=1:threads=4:ref=1:bframes=2:b-py
 // Depth compresses better with the careful search of "medium"; for colour it costs more than it gains.
 constexpr const char* kQuickDepth = ":rc-lookahead=4:trellis=0:subme=6:partitions=i8x8,i4x4";
 constexpr const char* kQuickColor = ":rc-lookahead=3:trellis=1";
-// The crf with which a depth is as exact as "medium" makes it with the given one, and colour nearly so.
+// The crf at which the quick preset makes depth as exact as "medium" does at the given crf, and colour nearly so.
 double quickQuality(const VideoEncoder::Settings& s) {
   return std::max(s.crf - (s.to_touch ? 3.0 : 2.0), 0.5 * s.crf);
 }

@@ -34,8 +34,8 @@ double medianRest(const std::vector<FitSample>& samples, const ReliefFit& fit) {
   return medianOf(rests);
 }
 
-// Fits the slopes between each sample and the one half of all samples further up. If the samples lie too flat, as many
-// slopes fall as rise: then `scale` is used. Nullopt if most fall.
+// Fits the slopes between each sample and the sample that is half of all samples further up. If the samples lie too
+// flat, as many slopes fall as rise: then `scale` is used. Nullopt if most fall.
 std::optional<ReliefFit> firstFit(std::vector<FitSample>& samples, double scale) {
   std::ranges::sort(samples, {}, &FitSample::height);
   const std::size_t half = samples.size() / 2;

@@ -58,8 +58,9 @@ void addTrace(CLI::App& app, TraceOptions& options) {
   app.add_option("--out", options.out_path, "Output: one row per tick")->required()->type_name("OUT.csv");
   addChoice(
       app, "--method", options.method, methodChoices(),
-      "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's; proxy-graph, proxy-blend: its "
-      "predecessors;\npenalty: penetration depth, no proxy. The charts' god-object is relievo with --space triangles")
+      "Method of touch\nrelievo: the player's own; modified-proxy-graph: the paper's (Cha et al., 2006); proxy-graph, "
+      "proxy-blend: its\npredecessors; penalty: penetration depth, no proxy. The charts' god-object is relievo with "
+      "--space triangles")
       ->required();
   app.add_option("--stiffness", options.stiffness_n_per_mm,
                  "Stiffness between finger and proxy, N/mm [the material's, else 0.5]")
@@ -163,7 +164,7 @@ int parseAndRun(int argc, char** argv) {
       "  relievo-lab report --quick --out charts      all charts in a few minutes, with charts/index.html as the "
       "overview\n"
       "  relievo-lab trace --help                     one finger, one film, one method, tick by tick\n"
-      "\nIn the charts, `god-object` is the method relievo on the paper's triangles: a converged proxy;\n"
+      "\nIn the charts, `god-object` is the method relievo on the triangles of Cha et al. (2006): a converged proxy;\n"
       "`god-object-smoothed` is the same on depth whose frames are smoothed first; `bullet` is a god-object on "
       "the\n"
       "height field of the Bullet library. A name such as `relievo hold` is a method with one part replaced.\n");

@@ -153,7 +153,7 @@ void Player::followPrograms(MonotonicTime now) {
   if (parts_.control != nullptr) parts_.control->attend(*this, now);
 }
 
-// The next picture, but soon enough for keys.
+// The time of the next picture, but soon enough to answer keys.
 MonotonicTime Player::nextWake(MonotonicTime now) const {
   if (state_ == PlayerState::Idle || state_ == PlayerState::Browsing) return now + kIdleWait;
   if (state_ == PlayerState::Playing)

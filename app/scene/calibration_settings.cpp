@@ -114,7 +114,7 @@ const char* misfit(const DepthCalibration& c, int sample_bits) {
   return nullptr;
 }
 
-// The first rule that codes which are distances break, or null.
+// If the codes are distances: the first rule for such codes that `c` breaks. Null if there is none.
 const char* distanceMisfit(const DepthCalibration& c) {
   if (!c.unit_mm) return nullptr;
   if (c.code == DepthCode::Hue) return kUnitIsLuma;

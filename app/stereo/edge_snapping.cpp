@@ -18,10 +18,10 @@ namespace {
 constexpr int kReach = 6;  // pixels: of the neighbours that are examined
 constexpr int kWidth = 2 * kReach + 1;
 constexpr int kStrideCols = 300;   // columns of a picture in which every neighbour is examined
-constexpr int kNear = 5;           // pixels: as far a step may lie from its outline
+constexpr int kNear = 5;           // pixels: the farthest that a step may lie from its outline
 constexpr float kLeap = 2;         // pixels of disparity between neighbours: a step is near
 constexpr float kStep = 1.5F;      // pixels of disparity between two surfaces
-constexpr float kColor = 12;       // levels: of a colour's likeness
+constexpr float kColor = 12;       // levels of difference by which a colour's weight falls to 1/e
 constexpr float kWorst = 30;       // levels: the most that a pixel counts against a disparity
 constexpr float kHidden = 10;      // levels: for a pixel that is hidden behind what the right eye sees there
 constexpr float kFront = 2.5F;     // pixels of disparity by which one is in front of the other

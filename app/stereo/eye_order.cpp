@@ -13,7 +13,7 @@ namespace {
 constexpr int kBeside = 4;  // pixels on each side whose colours are compared
 constexpr float kStep = 2;  // pixels of disparity
 constexpr int kLeastRun = 2;
-constexpr float kTold = 1.5F;       // times as like one side as the other
+constexpr float kTold = 1.5F;       // a pixel counts if it is this many times as like one side as the other
 constexpr float kLeastUnlike = 24;  // levels between the sides, of the three components together
 constexpr float kEven = 1;          // pixels of disparity: of what lies on one side
 constexpr float kMost = 0.8F;       // largest share of the run's pixels that are like one side

@@ -221,7 +221,8 @@ void StereoSurvey::explain() {
     plan_.notes.push_back(
         print("in %d %s the rows of the two views do not match and could not be aligned", unfitting_, of.c_str()));
   }
-  if (flat > 0) plan_.notes.push_back(print("%zu %s have nothing that both views show and are flat", flat, of.c_str()));
+  if (flat > 0)
+    plan_.notes.push_back(print("%zu %s are flat: the two views show nothing in common there", flat, of.c_str()));
 }
 
 Result<StereoPlan> StereoSurvey::finish() {

@@ -44,8 +44,8 @@ bool readAt(const AVFormatContext& context, std::int64_t position, std::span<std
   return all;
 }
 
-// As a copy leaves it that was broken off on a file system which had given it its size. A whole film may end in null
-// packets, padding, or in what another program has added.
+// True for a copy that was broken off after the file system had set its final size. A whole film may end in null
+// packets, in padding, or in what another program has added.
 bool endsInZeros(const AVFormatContext& context, std::int64_t bytes) noexcept {
   std::array<std::uint8_t, 4096> last{};
   const auto size = static_cast<std::int64_t>(last.size());

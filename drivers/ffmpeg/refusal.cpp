@@ -46,13 +46,13 @@ constexpr const char* kText =
     "it is a table of numbers as text; convert it: python3 -c 'import numpy; numpy.save(\"depth.npy\", "
     "numpy.loadtxt(\"FILE\", delimiter=\",\"))'";
 constexpr const char* kPython =
-    "it is an object of Python; write its depth with numpy.save(\"depth.npy\", ARRAY), which is read";
+    "it is an object of Python; write its depth with numpy.save(\"depth.npy\", ARRAY), which relievo reads";
 constexpr const char* kTorch =
     "it is a tensor of PyTorch; convert it: python3 -c 'import numpy, torch; numpy.save(\"depth.npy\", "
     "torch.load(\"FILE\").numpy())'";
 constexpr const char* kHdf5 =
-    "it is an HDF5 file; convert it: python3 -c 'import h5py, numpy; numpy.save(\"depth.npy\", "
-    "next(iter(h5py.File(\"FILE\").values())))', or name its dataset instead of the first";
+    "it is an HDF5 file; convert its first dataset: python3 -c 'import h5py, numpy; numpy.save(\"depth.npy\", "
+    "next(iter(h5py.File(\"FILE\").values())))'; for another one: h5py.File(\"FILE\")[\"NAME\"]";
 constexpr const char* kMatlab =
     "it is a MATLAB file; convert it: python3 -c 'import scipy.io, numpy; numpy.save(\"depth.npy\", "
     "scipy.io.loadmat(\"FILE\")[\"NAME\"])', NAME being its variable with the depth";

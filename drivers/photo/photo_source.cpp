@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::uint64_t kFirstBytes = 64;
 
-// Empty unless it is a regular file of a photo's size that begins like one of the kinds.
+// The file's bytes, if it is a regular file that begins like one of the kinds and is not larger than such photos are;
+// else none.
 PhotoBytes bytesOf(const std::string& path, std::span<const PhotoKind> kinds) {
   auto bytes = std::make_shared<std::vector<std::uint8_t>>();
   const auto file = AnsweredFile::open(path);

@@ -22,7 +22,8 @@ std::string placeOf(const std::string& path) {
   return path.substr(0, path.rfind('/') - folderIn(path).size());
 }
 
-// "1305031102.160407.png". Whoever counts in other units of time, as Redwood does, stores mm.
+// True for a name in seconds, such as "1305031102.160407.png". Recordings that count in other units of time, such as
+// Redwood's, store mm.
 bool isSeconds(std::string_view path) {
   const std::string_view name = path.substr(path.rfind('/') + 1), stem = name.substr(0, name.rfind('.'));
   return stem.find('.') != stem.npos && stem.find_first_not_of("0123456789.") == stem.npos;

@@ -184,10 +184,11 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.notes = std::move(timing.notes);
   if (counted && !frames_per_s && leading.size() > 1) {
     recording.notes.push_back(
-        photos ? print("the file names have nothing in common, as of photos: each is shown for %.0f s; give one of "
-                       "them to play it alone, --fps F for a film",
-                       1 / rate)
-               : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
+        photos
+            ? print("the file names have nothing in common, so these are photos: each is shown for %.0f s; give one of "
+                    "them to play it alone, --fps F for a film",
+                    1 / rate)
+            : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }
   recording.views = found.views;
   if (both && !found.views)

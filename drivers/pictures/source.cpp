@@ -25,8 +25,8 @@ namespace {
 
 using namespace pictures;
 
-// Of a file, which is held in memory, by FFmpeg's decoders two or three times. A picture of the most samples, in four
-// channels, has 134 MB at 16 bits and 268 MB at 32 bits.
+// Limits for a file, which is held in memory, by FFmpeg's decoders two or three times. A picture of the most samples,
+// in four channels, has 134 MB at 16 bits and 268 MB at 32 bits.
 constexpr std::uint64_t kMostBytes = 140'000'000, kMostBytesOfFloats = 300'000'000;
 constexpr Error kTooLarge{ErrorCode::Exhausted, 0, "is larger than 140 MB, the most that a picture's file may have"};
 constexpr Error kTooLargeForFloats{ErrorCode::Exhausted, 0,
@@ -156,7 +156,7 @@ class PicturesSource final : public MediaSource {
     return stream;
   }
 
-  // In thousandths.
+  // The frame rate, in thousandths.
   [[nodiscard]] Ratio rateOf(const std::vector<TimedPicture>& pictures) const {
     if (pictures.size() < 2) return {};
     const double seconds = toSeconds(pictures.back().time - pictures.front().time);

@@ -41,7 +41,7 @@ std::optional<NumberType> typeOf(std::uint16_t bits, std::uint16_t format) noexc
   return known && sound ? std::optional(type) : std::nullopt;
 }
 
-// Nullopt unless the picture is numbers of one component, or of three that lie together.
+// Nullopt unless a pixel is a number, or three numbers that lie together.
 std::optional<Layout> layoutOf(TIFF* file) noexcept {
   Layout layout;
   std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, planes = PLANARCONFIG_CONTIG, meaning = PHOTOMETRIC_MINISBLACK;

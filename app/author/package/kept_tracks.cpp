@@ -18,7 +18,7 @@ namespace relievo {
 namespace {
 
 constexpr AVRational kNanosecond{1, 1'000'000'000};
-constexpr Duration kLongestGap = std::chrono::seconds(10);  // as the reader of files has it, see ContinuousTime
+constexpr Duration kLongestGap = std::chrono::seconds(10);  // the same as for reading files, see ContinuousTime
 constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for a track"};
 
 // Codecs that common players support in a transport stream or an HLS segment.

@@ -71,7 +71,8 @@ class Way {
   double lowered_, dx_, dy_, squared_, begins_, ends_;
 };
 
-// The point between the way's begin, outside the cone, and its end, inside, where the force lies on it, or just inside.
+// The point of the way where the force lies on the cone, or just inside: the way begins outside the cone and ends
+// inside.
 Contact onTheCone(const Way& way, const Spring& from, const Spring& to, double coefficient) RELIEVO_RT {
   double low = 0, high = 1, f_low = from.beyond(coefficient), f_high = to.beyond(coefficient);
   int kept = 0;  // the end that was kept in the last round: -1 low, 1 high

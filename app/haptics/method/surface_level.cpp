@@ -82,8 +82,8 @@ void SurfaceLevel::place(const FrameSlots& slots, const FrameWeights& weights,
   }
 }
 
-// An edge that passes a point is no motion of the surface there, and to carry it on would throw it beyond both sides of
-// the edge: a way over kMostCarriedMm counts less, and one twice as long not at all.
+// When an edge passes a point, the surface there does not move: carrying its height on would throw it beyond both sides
+// of the edge. So a way over kMostCarriedMm counts less, and a way twice as long not at all.
 RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell,
                                            Patch& out) RELIEVO_RT {
   grid_.patch(cell.i, cell.j, weighed.frames, out);
@@ -216,7 +216,7 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   blend(slots, weighed_, cell, prepared_);
   if (weighed_.law != time_) readLacking(slots, next, cell);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
-  // A point where a hole opens or closes in between jumps and has no rate.
+  // A point where a hole opens or closes between the two frames jumps, so it has no rate.
   const float pit = grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) {

@@ -28,7 +28,7 @@ class TouchStage::Handle final : public HapticDevice {
   Result<void> homeDevice() override { return {}; }
   Result<void> startDevice() override { return {}; }
   Result<HapticSample> readSample() RELIEVO_RT override {
-    if (!position) return fail(ErrorCode::Io, "as the scenario has it");
+    if (!position) return fail(ErrorCode::Io, "the scenario lets this read fail");
     return HapticSample{.position_mm = *position};
   }
   Result<void> writeForce(const glm::dvec3& force_n) RELIEVO_RT override {

@@ -205,8 +205,9 @@ class Smoothness {
                        curve.errors.result().rms_percent);
     }
     return {"The peak at the frame rate against the error of the force",
-            "15 frames/s, 8 bits, fixed point, under hold on the same surface and with what error: " + reading + "." +
-                lostWords(setting)};
+            "15 frames/s, 8 bits, finger held at a point. How far each peak lies below that of holding the frame on "
+            "the same surface, and with what error of the force: " +
+                reading + "." + lostWords(setting)};
   }
 
   const MeasureOptions& options_;

@@ -16,7 +16,8 @@ namespace {
 constexpr Limit kDropBack{5e3 / 30 + 80, "ms", "derived: a burst of four lost frames and the next one 80 ms late"};
 // Two damaged frames and 1.5 to be late would be 117 ms, which `relievo` does not keep in the long run.
 constexpr Limit kDamageBack{
-    200, "ms", "chosen: methods that are not lost need up to 181 ms and the others 7900; derived it would be 117"};
+    200, "ms",
+    "chosen: methods that come back need up to 181 ms and the others never do; the derived limit would be 117"};
 
 }  // namespace
 
@@ -75,7 +76,7 @@ Verdict underrun(const Challenger& challenger, bool /*quick*/) {
                 "of the force before is felt 200 ms after frames are back");
   judge.atMost(glm::length(back) / glm::length(truth) * 100, kForceNotAbove, "of the true force");
   judge.atMost(100 * peakForce(between(ticks, 0.3, kGoesOn)) / (challenger.stiffness_n_per_mm * 3), kForceNotAbove,
-               "of the force before meanwhile");
+               "of the force before in the time without frames");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }

@@ -44,7 +44,7 @@ glm::dvec3 below(const Relief& relief, double deep_mm) {
 // After a cut the finger has come from outside, and feels the new scene.
 void judgeLastForce(Judge& judge, std::span<const StageTick> ticks, double end_s, const glm::dvec3& wanted_n) {
   judge.atMost(percentOff(meanForce(between(ticks, end_s - 0.1, end_s)), wanted_n), kForceMatches,
-               "force off for a finger that comes from outside");
+               "error of the force for a finger that comes from outside");
 }
 
 }  // namespace
@@ -199,7 +199,7 @@ Verdict pause(const Challenger& challenger, bool /*quick*/) {
                                                         depthOnFlat(relief, tick.hip_mm, toSeconds(tick.media))));
   }
   Judge judge;
-  judge.atMost(worst, kForceMatches, "force off on the still picture at worst");
+  judge.atMost(worst, kForceMatches, "largest error of the force on the still picture");
   judge.atMost(longestLostMs(ticks, relief, 2.5, challenger.stiffness_n_per_mm), lostForFrames(30),
                "inside and nothing felt");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);

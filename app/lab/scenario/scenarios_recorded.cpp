@@ -135,7 +135,7 @@ Verdict dropout(const Challenger& challenger, bool quick) {
                "inside and nothing felt");
   judge.atMost(100 * peakForce(between(ticks, 0.3, duration)) / glm::length(truth), {106, "%", kPerceived},
                "of the force without holes: peak");
-  judge.atMost(worst, kForceDifference, "force off before the next hole");
+  judge.atMost(worst, kForceDifference, "error of the force before the next hole");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }

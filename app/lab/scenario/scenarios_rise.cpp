@@ -24,7 +24,7 @@ Verdict riseUnder(const Challenger& challenger, const Relief& relief, KeptFilm& 
   Judge judge;
   judge.atMost(longestLostMs(ticks, relief, 0.3, challenger.stiffness_n_per_mm), lostForFrames(format.frames_per_s),
                "inside and nothing felt");
-  judge.atMost(percentOff(meanForce(end), truth), kForceMatches, "force off when all is at rest");
+  judge.atMost(percentOff(meanForce(end), truth), kForceMatches, "error of the force when all is at rest");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }
@@ -59,7 +59,7 @@ Verdict riseContact(const Challenger& challenger, bool /*quick*/) {
                "inside and nothing felt");
   judge.atMost(percentOff(meanForce(between(ticks, 0.75, 0.8)),
                           challenger.stiffness_n_per_mm * (closestOn(relief, hip, 1) - hip)),
-               kForceMatches, "force off when all is at rest");
+               kForceMatches, "error of the force when all is at rest");
   judge.bounds(ticks, challenger.stiffness_n_per_mm);
   return judge.verdict();
 }

@@ -10,8 +10,8 @@ namespace relievo {
 namespace {
 
 constexpr double kLongestStepMm = 0.1;   // short enough not to jump over a rise in distance into another hollow
-constexpr double kTrustedStepMm = 1e-5;  // so near to a minimum the distance's own rounding hides the descent
-constexpr double kRoundingMm = 1e-11;    // steps below that do not shrink any more are rounding
+constexpr double kTrustedStepMm = 1e-5;  // this near to a minimum, the rounding of the distance hides the descent
+constexpr double kRoundingMm = 1e-11;    // smaller steps that no longer shrink are rounding
 constexpr double kLeastCurvature = 1e-3;
 constexpr double kSaddleKickMm = 1e-3;
 constexpr int kMostSteps = 10000;  // a slide over the whole picture takes 2000

@@ -92,7 +92,7 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
     return print("%.0f %% of the depth is coloured but read as brightness: try --depth-code hue", 100 * colored);
   return print(
       "%.0f %% of the depth is coloured but read as brightness, and its colours are of no known map, so the relief is "
-      "wrong: write the depth again in gray, better of 16 bits, or name its map, if it is one: --depth-code turbo, ..",
+      "wrong: write the depth again in gray, preferably of 16 bits, or name its colour map: --depth-code turbo, ..",
       100 * colored);
 }
 
@@ -122,8 +122,9 @@ std::string doubtPattern(const Frame& depth, const DepthCalibration& calibration
     for (int i = 0; i < lines; ++i) swings += swingsAlong(depth, row, (2 * i + 1) * all / (2 * lines));
     if (swings < kMany * lines) continue;
     return print(
-        "the depth runs from black to white and back %d times along a line, as RealSense's colours Pattern do: a shade "
-        "means no one distance, so the relief is wrong; record it with the colours Hue or White to Black, or as .bag",
+        "the depth runs from black to white and back %d times along a line, as in RealSense's colour scheme Pattern: "
+        "each shade means many distances, so the relief is wrong; record it with the scheme Hue or White to Black, or "
+        "as .bag",
         swings / lines / 2);
   }
   return "";

@@ -167,7 +167,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     read.settings.erase("near");
     read.settings.erase("far");
   }
-  if (!later.empty() && !read.why.empty()) read.why += print(", in %zu pictures of it", later.size() + 1);
+  if (!later.empty() && !read.why.empty()) read.why += print(", judged by %zu pictures", later.size() + 1);
   return read;
 }
 

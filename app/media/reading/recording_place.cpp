@@ -219,9 +219,9 @@ void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlac
   } else if (hasView(path, folder, "disp1", "view1.png")) {
     place.camera = stereoCameraOf2006(folder / "dmin.txt");
     place.file = (folder / "dmin.txt").string();
-    place.why = "names as Middlebury's of 2005 and 2006";
+    place.why = "its files are named as Middlebury's of 2005 and 2006";
   } else if (hasView(path, folder, "disp2", "im2.png") || hasView(path, folder, "disp2", "im2.ppm")) {
-    place.why = "names as Middlebury's of 2001 and 2003";
+    place.why = "its files are named as Middlebury's of 2001 and 2003";
   } else {
     return;
   }

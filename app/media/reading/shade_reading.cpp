@@ -20,7 +20,7 @@ DepthReading readRange(const CodeCount& count) {
           ""};
 }
 
-// For gray without lossy coding that leaves out some codes above 0: black is then a hole.
+// For gray without lossy coding in which the codes just above 0 do not occur: black is then a hole.
 void readBlack(const CodeCount& count, DepthReading& reading) {
   constexpr int kShades = 32;
   const std::uint32_t gap = (1u << count.bits()) / 128;

@@ -179,7 +179,7 @@ std::string whyNoCommand(std::string_view words) {
   const auto entry = std::ranges::find(verbTable(), std::string_view(word), [](const VerbEntry& e) { return e.word; });
   if (entry == verbTable().end()) return "unknown command \"" + word + "\"; known are: " + commandWords();
   const std::string form = formOf(entry->operand);
-  if (form.empty()) return "\"" + word + "\" takes no word after it, such as \"" + operand + "\"";
+  if (form.empty()) return "\"" + word + "\" takes no word after it, but \"" + operand + "\" was given";
   const std::string wrong = operand.empty() ? ": it is missing" : ", not \"" + operand + "\"";
   return "\"" + word + "\" takes " + form + wrong;
 }

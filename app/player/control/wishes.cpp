@@ -62,7 +62,7 @@ Deeds playOrPause(const Situation& s) {
   return s.rate > 1 ? goOnAt(1, s) : pause(s);
 }
 
-// Key frames do not stand: from a pause the film goes on by them.
+// A rate over 1 shows key frames only, and not while paused: a paused film goes on.
 Deeds faster(const Situation& s) {
   const double rate = rateBeside(s.rate, 1);
   return s.held && rate > 1 && s.length > Duration(0) ? goOnAt(rate, s) : changeRate(rate, s);

@@ -16,7 +16,7 @@ constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
 constexpr Duration kStillStands = std::chrono::seconds(5);
 constexpr Duration kLivePatience =
-    std::chrono::milliseconds(100);  // a live film has no picture buffered as soon as one is shown
+    std::chrono::milliseconds(100);  // a live film has nothing buffered once its newest picture is shown
 constexpr double kRushStepS = 0.1;   // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace

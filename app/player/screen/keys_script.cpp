@@ -18,7 +18,7 @@ constexpr int kLargest = 28, kSmallest = 5;          // letters
 constexpr double kLegiblePixels = 11, kHugest = 40;  // likewise, in a view of few pixels
 constexpr double kLine = 1.25;                       // of the letters' size
 constexpr double kBetween = 36;                      // two columns
-constexpr double kKeyLetters = 7.6;                  // the size of a letter to the width of the keys
+constexpr double kKeyLetters = 7.6;                  // letter sizes: the width of the keys
 constexpr int kMostColumns = 3;
 constexpr std::size_t kMostLines = 12;  // of a row
 

@@ -5,7 +5,7 @@
 namespace relievo {
 
 inline constexpr const char* kAbout =
-    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device feels its relief.\n";
+    "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device lets you feel its relief.\n";
 inline constexpr const char* kProgramAbout =
     "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
     "  relievo help COMMAND      shows the options of a command; `relievo help play` begins with the most frequent "
@@ -17,9 +17,8 @@ inline constexpr const char* kProgramFooter =
     "                                                 what is in it: colour on top, depth as hue below\n"
     "  relievo devices                                which devices are there, and why one cannot be used\n"
     "  relievo selftest                               tests this installation, without any hardware\n"
-    "\nA file that is named like a command is reached by its path, as ./play. `relievo-author --help` tells how to "
-    "make "
-    "a film.\n";
+    "\nTo play a file that is named like a command, give its path, such as ./play. `relievo-author --help` tells how\n"
+    "to make a film.\n";
 inline constexpr const char* kProbeFooter =
     "\nExamples:\n"
     "  relievo probe film.mkv                         its tracks, what its depth means, what a finger will feel of it\n"
@@ -31,8 +30,8 @@ inline constexpr const char* kProbeFooter =
     "the\n"
     "film asks for or lacks, and the option to try. Exit code: 0 done, 1 failed at run time, 2 usage error.\n";
 inline constexpr const char* kDevicesFooter =
-    "\nEach display and device is opened as `play` would; if that fails, the line says why and what to do. For a "
-    "screen,\nit lists the mode and the supported 3D signals.\n"
+    "\nEach display and device is opened as `play` would open it; if that fails, its line says why and what to do. "
+    "For a\nscreen, it lists the mode and the supported 3D signals.\n"
     "\nThe configuration (TOML; `relievo play --print-config` shows one) has a section for a Falcon:\n"
     "  [falcon]\n"
     "  firmware = \"/path/to/image\"    the maker's firmware, from the SDK that came with the device\n"

@@ -94,7 +94,7 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
       ->configurable(false);
   probe.add_option("SOURCE", options.probe.source.url, kSourceHelp)->type_name(" ")->required();
   addDepthSource(probe, options.probe.source);
-  probe.add_flag("--json", options.probe.json, "For programs");
+  probe.add_flag("--json", options.probe.json, "Print JSON, for programs");
   probe.footer(kProbeFooter);
   addConfigOption(devices, config_path);
   devices.footer(kDevicesFooter);

@@ -25,7 +25,8 @@ SelfTestLine text() {
   return {Verdict::Note, "text", words.error().message};
 }
 
-// One line for all of a kind. Without parameter sets a codec that is known may answer that they make no sense.
+// One line for all of a kind. Opened without parameter sets, a known codec may answer that its parameters
+// make no sense.
 template <class Codecs, class Open>
 SelfTestLine decoders(const char* thing, const Codecs& codecs, Open&& open) {
   std::string there, missing;

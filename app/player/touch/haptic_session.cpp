@@ -90,8 +90,8 @@ Result<void> HapticSession::setScene(const DisplayVolume& volume, const Material
   }
   method_ = std::move(method);
 
-  // The method is an object of its own on the heap; the code is what the ticks run. Both as far as the right goes: a
-  // page that is touched but not locked is lost only when memory runs short.
+  // The method is an object of its own on the heap; the code is what the ticks run. Both are locked if
+  // the process may lock memory: a page that is touched but not locked is lost only when memory runs short.
   memory_locked_ = arena_->locked();
   const bool locked = memory_locked_ && lockAndTouch(method_.get(), ::malloc_usable_size(method_.get())).has_value() &&
                       lockAndTouchCode().has_value();

@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr float kStep = 1.5F;      // pixels of the small map: a greater difference around a pixel is a step
-constexpr float kColor = 14;       // levels: of a colour's likeness
+constexpr float kColor = 14;       // levels of difference by which a colour's weight falls to 1/e
 constexpr int kReach = 2;          // pixels of the small map
 constexpr float kInferred = 0.3F;  // weight of a pixel that was not seen
 

@@ -32,7 +32,7 @@ std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const 
                           std::int16_t* now, std::int16_t* sums, std::size_t levels) noexcept {
   const auto far = static_cast<std::int16_t>(least + step);
   std::int16_t lowest = kHigh;
-  const std::int16_t* const nearer = before - 1;  // a high cost is on each side of them all
+  const std::int16_t* const nearer = before - 1;  // a high cost lies before the first cost and after the last
   const std::int16_t* const farther = before + 1;
   for (std::size_t d = 0; d < levels; ++d) {
     const auto beside = static_cast<std::int16_t>(std::min(nearer[d], farther[d]) + kSlope);

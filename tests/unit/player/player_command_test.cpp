@@ -104,7 +104,7 @@ TEST(Command, SaysWhichWordIsWrong) {
       << whyNoCommand("dance");
   EXPECT_EQ(whyNoCommand("select x"), "\"select\" takes +N|-N|N|last, not \"x\"");
   EXPECT_EQ(whyNoCommand("select"), "\"select\" takes +N|-N|N|last: it is missing");
-  EXPECT_EQ(whyNoCommand("pause now"), "\"pause\" takes no word after it, such as \"now\"");
+  EXPECT_EQ(whyNoCommand("pause now"), "\"pause\" takes no word after it, but \"now\" was given");
 }
 
 TEST(Command, ADelaySaysItsDirection) {
