@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "app/scene/code_sums.h"
+
 namespace relievo {
 namespace {
 
@@ -18,6 +20,56 @@ std::array<double, 3> toRgb(const Frame& frame, const std::array<double, 3>& sha
   const double red = y + 2 * (1 - kr) * v, blue = y + 2 * (1 - kb) * u;
   return {red, (y - kr * red - kb * blue) / (1 - kr - kb), blue};
 }
+
+// Evenly spaced columns or rows of a component.
+struct Run {
+  int first = 0, step = 1, count = 0;
+};
+
+// The run whose mean is that of a block's samples; none (count 0) if they fall on a subsampled component at uneven
+// steps. Of an odd number of samples, every other one has the same middle.
+Run runOf(int origin, const SampledBlock::Places& places, int shift) RELIEVO_RT {
+  const int first = origin + places.first;
+  if (shift == 0) return {first, places.step, places.count};
+  const bool odd = (places.count & 1) != 0, paired = places.step == 1 && (first & 1) == 0;
+  if (shift > 1 || !(odd || paired)) return {};
+  return {first >> 1, places.step, (places.count + 1) >> 1};
+}
+
+// The sum, the least and the greatest of the codes added.
+template <bool kWords>
+struct Spread {
+  std::uint32_t mask, sum = 0, low = ~0U, high = 0;
+  std::uint8_t shift;
+
+  // kAcross 0: the width is known only at run time.
+  template <int kAcross>
+  void addRows(const CodeBlock& codes) RELIEVO_RT {
+    const int across = kAcross > 0 ? kAcross : codes.across;
+    const std::uint8_t* row = codes.first;
+    for (int left = codes.down; left > 0; --left, row += codes.stride_bytes) {
+      for (int k = 0; k < across; ++k) {
+        const std::uint8_t* at = row + k * codes.step_bytes;
+        const std::uint32_t code = kWords ? (at[0] | static_cast<std::uint32_t>(at[1]) << 8) >> shift & mask : at[0];
+        sum += code;
+        low = std::min(low, code);
+        high = std::max(high, code);
+      }
+    }
+  }
+  void add(const CodeBlock& codes) RELIEVO_RT {
+    switch (codes.across) {  // a width known at compile time takes fewer instructions
+      case 1:
+        return addRows<1>(codes);
+      case 2:
+        return addRows<2>(codes);
+      case 3:
+        return addRows<3>(codes);
+      default:
+        return addRows<0>(codes);
+    }
+  }
+};
 
 }  // namespace
 
@@ -51,42 +103,59 @@ ColorSamples::ColorSamples(const Frame& frame) noexcept {
   }
 }
 
-template <bool kWords>
-std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  const auto code = [&](const Part& part, const std::uint8_t* at) -> std::uint32_t {
-    return kWords ? (at[0] | static_cast<std::uint32_t>(at[1]) << 8) >> part.shift & mask_ : at[0];
-  };
-  // Of an odd number, every other one has the same middle.
+// Adds the chroma of a block whose samples fall on it at uneven steps. Returns how many samples it added.
+template <class Spread>
+[[gnu::noinline]] int ColorSamples::addOneByOne(int c0, int r0, const SampledBlock& block, Spread& u,
+                                                Spread& v) const RELIEVO_RT {
   const int skip_x = block.across.count % 2 == 1 ? 1 + shift_x_ : 1,
             skip_y = block.down.count % 2 == 1 ? 1 + shift_y_ : 1;
-  const std::uint32_t most = (mask_ + 1) / 4;
-  float mean[3] = {};
-  for (std::size_t i = 2; i > 0; --i) {
-    const Part& part = parts_[i];
-    std::uint32_t sum = 0, count = 0, low = mask_, high = 0;
-    for (int j = 0; j < block.down.count; j += skip_y) {
-      const int r = r0 + block.down.first + j * block.down.step;
-      const std::uint8_t* const row = part.data + (r >> shift_y_) * part.stride_bytes;
-      for (int k = 0; k < block.across.count; k += skip_x, ++count) {
-        const int c = c0 + block.across.first + k * block.across.step;
-        const std::uint32_t here = code(part, row + static_cast<std::ptrdiff_t>(c >> shift_x_) * part.step_bytes);
-        sum += here;
-        low = std::min(low, here);
-        high = std::max(high, here);
-      }
+  int count = 0;
+  for (int j = 0; j < block.down.count; j += skip_y) {
+    const int r = (r0 + block.down.first + j * block.down.step) >> shift_y_;
+    for (int k = 0; k < block.across.count; k += skip_x, ++count) {
+      const int c = (c0 + block.across.first + k * block.across.step) >> shift_x_;
+      const auto codeOf = [&](const Part& part) -> CodeBlock {
+        return {.first = part.data + r * part.stride_bytes + static_cast<std::ptrdiff_t>(c) * part.step_bytes};
+      };
+      u.add(codeOf(parts_[1]));
+      v.add(codeOf(parts_[2]));
     }
-    if (high - low > most) return std::nullopt;
-    mean[i] = static_cast<float>(static_cast<int>(sum)) / static_cast<float>(static_cast<int>(count));
   }
-  const Part& luma = parts_[0];
-  std::uint32_t sum = 0;
-  for (int j = 0; j < block.down.count; ++j) {
-    const std::uint8_t* at = luma.data + (r0 + block.down.first + j * block.down.step) * luma.stride_bytes +
-                             static_cast<std::ptrdiff_t>(c0 + block.across.first) * luma.step_bytes;
-    for (int k = 0; k < block.across.count; ++k, at += block.across.step * luma.step_bytes) sum += code(luma, at);
+  return count;
+}
+
+template <bool kWords>
+std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
+  const auto codesOf = [](const Part& part, const Run& across, const Run& down) -> CodeBlock {
+    return {.first = part.data + down.first * part.stride_bytes +
+                     static_cast<std::ptrdiff_t>(across.first) * part.step_bytes,
+            .step_bytes = static_cast<std::ptrdiff_t>(across.step) * part.step_bytes,
+            .stride_bytes = down.step * part.stride_bytes,
+            .across = across.count,
+            .down = down.count};
+  };
+  const Part &luma = parts_[0], &u = parts_[1], &v = parts_[2];
+  Spread<kWords> of_u{.mask = mask_, .shift = u.shift}, of_v{.mask = mask_, .shift = v.shift};
+  const Run columns = runOf(c0, block.across, shift_x_), rows = runOf(r0, block.down, shift_y_);
+  int count = columns.count * rows.count;
+  if (count > 0) {
+    of_u.add(codesOf(u, columns, rows));
+    of_v.add(codesOf(v, columns, rows));
+  } else {
+    count = addOneByOne(c0, r0, block, of_u, of_v);
   }
-  mean[0] = static_cast<float>(static_cast<int>(sum)) / static_cast<float>(block.across.count * block.down.count);
-  return colorOf(mean[0], mean[1], mean[2]);
+  if (std::max(of_u.high - of_u.low, of_v.high - of_v.low) > (mask_ + 1) / 4) return std::nullopt;
+  const CodeBlock all = codesOf(luma, runOf(c0, block.across, 0), runOf(r0, block.down, 0));
+  Spread<kWords> of_luma{.mask = mask_, .shift = luma.shift};
+  if (kWords) {
+    of_luma.add(all);
+  } else {
+    of_luma.sum = sumOfBytes(all);
+  }
+  const auto mean = [](std::uint32_t sum, int codes) {
+    return static_cast<float>(static_cast<int>(sum)) / static_cast<float>(codes);
+  };
+  return colorOf(mean(of_luma.sum, all.across * all.down), mean(of_u.sum, count), mean(of_v.sum, count));
 }
 
 // A luma sample is a quarter of the chroma samples' distance from the nearest one.

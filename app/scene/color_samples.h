@@ -53,6 +53,8 @@ class ColorSamples {
   }
   template <bool kWords>
   [[nodiscard]] std::optional<YuvColor> meanOf(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
+  template <class Spread>
+  int addOneByOne(int c0, int r0, const SampledBlock& block, Spread& u, Spread& v) const RELIEVO_RT;
   [[nodiscard]] float codeAt(std::size_t part, int c, int r) const RELIEVO_RT {
     const Part& p = parts_[part];
     const std::uint8_t* at = p.data + r * p.stride_bytes + static_cast<std::ptrdiff_t>(c) * p.step_bytes;

@@ -181,6 +181,26 @@ TEST(HueOverYuv, ALowStepIsAsSharpAsItsBrightness) {
   for (int c = 0; c < 48; ++c) EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.02) << c;
 }
 
+// Colours from red to yellow are on a straight line, so that a block's mean is the height of its middle. Of an odd
+// number of samples, those of chroma are off by up to half a sample.
+TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
+  constexpr double kBegin = 0.02, kRise = 0.005;
+  for (const bool across : {true, false}) {
+    const Film film{
+        .cols = 24, .rows = 24, .color = [&](int c, int r) { return hue(kBegin + kRise * (across ? c : r)); }};
+    const Frame frame = film.frame();
+    const auto field = HeightField::make(frame, kHue, kUnit).value();
+    for (const auto& [size, most] : {std::pair(2, 8), {3, 8}, {4, 8}, {5, 8}, {6, 8}, {7, 8}, {12, 4}}) {
+      for (int begin = 0; begin + size <= 24; ++begin) {
+        const int c = across ? begin : 3, r = across ? 3 : begin;
+        const double middle = kBegin + kRise * (begin + (size - 1) / 2.0);
+        EXPECT_NEAR(field.meanHeight(c, r, {size, size, most}), middle, size % 2 == 0 ? 0.001 : 0.002)
+            << size << ' ' << begin << (across ? " across" : " down");
+      }
+    }
+  }
+}
+
 // Of an edge that takes five samples, those in its middle are on neither side.
 TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
   for (const auto& [left, right] : {std::pair(0.5, 0.8), {0.8, 0.5}, {0.1, 0.4}, {0.25, 0.65}}) {
