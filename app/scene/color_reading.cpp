@@ -55,9 +55,9 @@ ColorReading::ColorReading(const Frame& frame, DepthCode code)
     : samples_(frame), curve_(&curveOf(code)), cols_(frame.width), rows_(frame.height) {}
 
 double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  const auto mean = samples_.meanOfEvenBlock(c0, r0, block);
-  if (!mean) return kHole;
-  const ColorCurve::Point point = curve_->nearest(*mean);
+  YuvColor mean;
+  if (!samples_.meanOfEvenBlock(c0, r0, block, mean)) return kHole;
+  const ColorCurve::Point point = curve_->nearest(mean);
   return isSure(point) ? static_cast<double>(point.s) : kHole;
 }
 

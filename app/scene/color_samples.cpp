@@ -125,7 +125,7 @@ template <class Spread>
 }
 
 template <bool kWords>
-std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
+bool ColorSamples::meanOf(int c0, int r0, const SampledBlock& block, YuvColor& color) const RELIEVO_RT {
   const auto codesOf = [](const Part& part, const Run& across, const Run& down) -> CodeBlock {
     return {.first = part.data + down.first * part.stride_bytes +
                      static_cast<std::ptrdiff_t>(across.first) * part.step_bytes,
@@ -144,7 +144,7 @@ std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock&
   } else {
     count = addOneByOne(c0, r0, block, of_u, of_v);
   }
-  if (std::max(of_u.high - of_u.low, of_v.high - of_v.low) > (mask_ + 1) / 4) return std::nullopt;
+  if (std::max(of_u.high - of_u.low, of_v.high - of_v.low) > (mask_ + 1) / 4) return false;
   const CodeBlock all = codesOf(luma, runOf(c0, block.across, 0), runOf(r0, block.down, 0));
   Spread<kWords> of_luma{.mask = mask_, .shift = luma.shift};
   if (kWords) {
@@ -155,7 +155,8 @@ std::optional<YuvColor> ColorSamples::meanOf(int c0, int r0, const SampledBlock&
   const auto mean = [](std::uint32_t sum, int codes) {
     return static_cast<float>(static_cast<int>(sum)) / static_cast<float>(codes);
   };
-  return colorOf(mean(of_luma.sum, all.across * all.down), mean(of_u.sum, count), mean(of_v.sum, count));
+  color = colorOf(mean(of_luma.sum, all.across * all.down), mean(of_u.sum, count), mean(of_v.sum, count));
+  return true;
 }
 
 // A luma sample is a quarter of the chroma samples' distance from the nearest one.
@@ -172,8 +173,8 @@ YuvColor ColorSamples::interpolatedAt(int c, int r, int cols, int rows) const RE
   return {own.y, mean(own.u, across.u, down.u, both.u), mean(own.v, across.v, down.v, both.v)};
 }
 
-std::optional<YuvColor> ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  return words_ ? meanOf<true>(c0, r0, block) : meanOf<false>(c0, r0, block);
+bool ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block, YuvColor& mean) const RELIEVO_RT {
+  return words_ ? meanOf<true>(c0, r0, block, mean) : meanOf<false>(c0, r0, block, mean);
 }
 
 bool ColorSamples::sameChroma(const ColorSamples& other, int cols, int rows) const noexcept {
