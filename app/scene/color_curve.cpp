@@ -2,7 +2,6 @@
 #include "app/scene/color_curve.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace relievo {
@@ -85,33 +84,6 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
       }
     }
   }
-}
-
-// The distance is squared.
-ColorCurve::Place ColorCurve::placeOn(const Piece& piece, const YuvColor& color) const RELIEVO_RT {
-  const YuvColor off = minus(color, piece.from);
-  const float t = dot(off, piece.per_length), on = std::clamp(t, 0.0F, 1.0F);
-  const YuvColor left{off.y - on * piece.along.y, off.u - on * piece.along.u, off.v - on * piece.along.v};
-  return {t, dot(left, left)};
-}
-
-ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
-  const auto cell = [](float x) { return std::clamp(static_cast<int>(x * kSide), 0, kSide - 1); };
-  const int index = (cell(color.y) * kSide + cell(color.u + 0.5F)) * kSide + cell(color.v + 0.5F);
-  const int count = static_cast<int>(pieces_.size());
-  int k = nearest_piece_[static_cast<std::size_t>(index)];
-  Place place = placeOn(pieces_[static_cast<std::size_t>(k)], color);
-  for (int walked = 0; walked < 2 && (place.t < 0 || place.t > 1); ++walked) {
-    int beside = place.t < 0 ? k - 1 : k + 1;
-    if (closed_) beside = beside < 0 ? count - 1 : beside == count ? 0 : beside;
-    if (beside < 0 || beside >= count) break;
-    const Place there = placeOn(pieces_[static_cast<std::size_t>(beside)], color);
-    if (there.distance >= place.distance) break;
-    k = beside;
-    place = there;
-  }
-  const float s = (static_cast<float>(k) + std::clamp(place.t, 0.0F, 1.0F)) * per_piece_;
-  return {s, std::sqrt(place.distance)};
 }
 
 ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float high) const RELIEVO_RT {

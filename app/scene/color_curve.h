@@ -3,7 +3,10 @@
 // the curve that is nearest to a colour.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +34,7 @@ class ColorCurve {
   // Knots are 0xRRGGBB, 2 to 53 of them. If the last is the first, the curve is closed.
   explicit ColorCurve(std::span<const std::uint32_t> knots);
 
+  // In the header: `s` is then known before the distance's root is.
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
   // The point of the curve from `low` to `high` that is nearest to the colour if an error of chroma counts less than
   // one of luma, as where chroma is mixed; and the squared distance in that metric.
@@ -52,15 +56,40 @@ class ColorCurve {
     YuvColor from, along, per_length;  // per_length = along / |along|^2
   };
   struct Place {
-    float t = 0, distance = 0;
+    float t = 0, distance = 0;  // squared
   };
-  [[nodiscard]] Place placeOn(const Piece& piece, const YuvColor& color) const RELIEVO_RT;
+  [[nodiscard]] static Place placeOn(const Piece& piece, const YuvColor& color) RELIEVO_RT {
+    const float y = color.y - piece.from.y, u = color.u - piece.from.u, v = color.v - piece.from.v;
+    const YuvColor &along = piece.along, &per = piece.per_length;
+    const float t = y * per.y + u * per.u + v * per.v, on = std::clamp(t, 0.0F, 1.0F);
+    const float left_y = y - on * along.y, left_u = u - on * along.u, left_v = v - on * along.v;
+    return {t, left_y * left_y + left_u * left_u + left_v * left_v};
+  }
 
   std::vector<Piece> pieces_;
   float per_piece_ = 0;  // of s
   bool closed_ = false;
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
 };
+
+inline ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
+  const auto cell = [](float x) { return std::clamp(static_cast<int>(x * kSide), 0, kSide - 1); };
+  const int index = (cell(color.y) * kSide + cell(color.u + 0.5F)) * kSide + cell(color.v + 0.5F);
+  int k = nearest_piece_[static_cast<std::size_t>(index)];
+  Place place = placeOn(pieces_[static_cast<std::size_t>(k)], color);
+  for (int walked = 0; walked < 2 && (place.t < 0 || place.t > 1); ++walked) {
+    const int count = static_cast<int>(pieces_.size());
+    int beside = place.t < 0 ? k - 1 : k + 1;
+    if (closed_) beside = beside < 0 ? count - 1 : beside == count ? 0 : beside;
+    if (beside < 0 || beside >= count) break;
+    const Place there = placeOn(pieces_[static_cast<std::size_t>(beside)], color);
+    if (there.distance >= place.distance) break;
+    k = beside;
+    place = there;
+  }
+  const float s = (static_cast<float>(k) + std::clamp(place.t, 0.0F, 1.0F)) * per_piece_;
+  return {s, std::sqrt(place.distance)};
+}
 
 // The curve of a code other than luma. The first call creates it, which a real-time thread must not do; later calls
 // return the same object.
