@@ -2,6 +2,8 @@
 // The layout: prepare_iphone_data.py of ScanNet++'s toolkit.
 #include "drivers/scan/depth_bin.h"
 
+#include <lz4.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,41 +41,14 @@ bool inflatePicture(Inflater& inflater, std::vector<std::uint8_t>& mm) {
   return true;
 }
 
-// A length of LZ4 continues while its bytes are 255.
-std::optional<std::size_t> lengthAt(std::span<const std::uint8_t> lz4, std::size_t& at, std::size_t nibble) {
-  constexpr std::size_t kMore = 15, kFull = 255;
-  if (nibble < kMore) return nibble;
-  for (std::size_t length = nibble; at < lz4.size();) {
-    const std::size_t byte = lz4[at++];
-    length += byte;
-    if (byte != kFull) return length;
-  }
-  return std::nullopt;
+bool unpackLz4(const std::vector<std::uint8_t>& block, std::vector<std::uint8_t>& mm) {
+  mm.resize(2 * kSamples);
+  const auto bytes = [](auto& of) { return static_cast<int>(of.size()); };
+  return LZ4_decompress_safe(reinterpret_cast<const char*>(block.data()), reinterpret_cast<char*>(mm.data()),
+                             bytes(block), bytes(mm)) == bytes(mm);
 }
 
 }  // namespace
-
-std::optional<std::vector<std::uint8_t>> unpackLz4Block(std::span<const std::uint8_t> lz4, std::size_t bytes) {
-  constexpr std::size_t kLeastMatch = 4;
-  std::vector<std::uint8_t> out;
-  out.reserve(bytes);
-  for (std::size_t at = 0; at < lz4.size();) {
-    const std::size_t token = lz4[at++];
-    const auto literals = lengthAt(lz4, at, token >> 4);
-    if (!literals || *literals > lz4.size() - at || *literals > bytes - out.size()) return std::nullopt;
-    const auto from = lz4.subspan(at, *literals);
-    out.insert(out.end(), from.begin(), from.end());
-    at += *literals;
-    if (at == lz4.size()) break;
-    if (lz4.size() - at < 2) return std::nullopt;
-    const std::size_t back = lz4[at] | std::size_t{lz4[at + 1]} << 8;
-    at += 2;
-    const auto match = lengthAt(lz4, at, token & 15);
-    if (!match || back == 0 || back > out.size() || *match + kLeastMatch > bytes - out.size()) return std::nullopt;
-    for (std::size_t i = 0; i < *match + kLeastMatch; ++i) out.push_back(out[out.size() - back]);
-  }
-  return out.size() == bytes ? std::optional(std::move(out)) : std::nullopt;
-}
 
 // False unless there is a whole picture at the beginning.
 bool DepthBin::list(std::uint64_t end, const std::atomic<bool>& cancelled) {
@@ -137,10 +112,7 @@ DepthBin::Read DepthBin::next(std::vector<std::uint8_t>& mm) {
   const Place& place = places_[next_++];
   const auto packed = readPlace(file_, place);
   if (!packed) return Read::Damaged;
-  if (auto unpacked = unpackLz4Block(*packed, 2 * kSamples)) {
-    mm = std::move(*unpacked);
-    return Read::Picture;
-  }
+  if (unpackLz4(*packed, mm)) return Read::Picture;
   Inflater inflater(file_, place.begin, place.begin + place.bytes);
   return inflatePicture(inflater, mm) ? Read::Picture : Read::Damaged;
 }
@@ -154,7 +126,7 @@ bool DepthBin::goTo(std::size_t number, const std::atomic<bool>& cancelled) {
     const auto later = std::ranges::upper_bound(marks_, number, {}, &Mark::picture);
     const Mark& mark = *std::prev(later);
     if (number < next_ || mark.picture > next_) {
-      stream_ = mark.inflater;
+      stream_.emplace(mark.inflater);
       next_ = mark.picture;
     }
   }

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,10 +14,6 @@
 #include "platform/files/answered_file.h"
 
 namespace relievo::scan {
-
-// `lz4` is a block without a frame around it. Nullopt unless it unpacks to exactly `bytes`.
-[[nodiscard]] std::optional<std::vector<std::uint8_t>> unpackLz4Block(std::span<const std::uint8_t> lz4,
-                                                                      std::size_t bytes);
 
 // Each picture has a length of 32 bits before it and is packed by LZ4 (mm of 16 bits) or DEFLATE (m in floating point);
 // older files are one DEFLATE stream of all pictures.
