@@ -3,6 +3,8 @@
 #include "app/cli/program.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
@@ -38,11 +40,17 @@ void fillClosedStreams() noexcept {
   }
 }
 
+// A pipe or socket whose other end is closed: `relievo --help | head` has read enough.
+bool hasReaderLeft() noexcept {
+  pollfd out{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
+  return ::poll(&out, 1, 0) == 1 && (out.revents & (POLLERR | POLLHUP)) != 0;
+}
+
 // Output may still be buffered, so flush it and check for errors.
 int afterOutput(int exit_code) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (written || exit_code != kExitDone) return exit_code;
-  return tell({"standard output", {ErrorCode::Io, 0, "it cannot be written; is the disk full, or the reader gone?"}});
+  if (written || exit_code != kExitDone || hasReaderLeft()) return exit_code;
+  return tell({"standard output", {ErrorCode::Io, 0, "it cannot be written; is the disk full?"}});
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 // Behaviour of the command line that the three programs share.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/program.h"
@@ -73,6 +75,16 @@ test::ProgramResult printInto(const std::string& program, const std::string& fil
   const int status = ::pclose(pipe);
   said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return said;
+}
+
+TEST_P(Programs, EndQuietlyWhereTheReaderHasReadEnough) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ::close(ends[0]);
+  const auto said = printInto(GetParam(), "&" + std::to_string(ends[1]), "unlimited");
+  ::close(ends[1]);
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_EQ(said.err, "");
 }
 
 TEST_P(Programs, FailWhereStandardOutputIsFull) {
