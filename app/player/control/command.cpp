@@ -39,14 +39,14 @@ std::optional<PlayerCommand> timeIn(std::string_view text) {
 }
 
 // The command for a track of sound or subtitles: the next one, "previous", "off", or a number.
-std::optional<PlayerCommand> trackIn(PlayerVerb verb, std::string_view text) {
+std::optional<PlayerCommand> trackIn(const VerbEntry& entry, std::string_view text) {
   constexpr double kMostTracks = 100;
-  if (text.empty()) return PlayerCommand{verb};
-  if (text == "previous") return PlayerCommand{verb, kPreviousTrack};
-  if (text == "off" && verb == PlayerVerb::SubtitleTrack) return PlayerCommand{verb, -1};
+  if (text.empty()) return PlayerCommand{entry.verb};
+  if (text == "previous") return PlayerCommand{entry.verb, kPreviousTrack};
+  if (text == "off" && entry.operand == Operand::TrackOrOff) return PlayerCommand{entry.verb, -1};
   const auto number = numberIn(text);
   const bool good = number && *number >= 1 && *number <= kMostTracks && *number == std::floor(*number);
-  return good ? std::optional(PlayerCommand{verb, *number}) : std::nullopt;
+  return good ? std::optional(PlayerCommand{entry.verb, *number}) : std::nullopt;
 }
 
 std::optional<PlayerCommand> levelIn(std::string_view text) {
@@ -82,7 +82,8 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
     case Operand::Row:
       return rowIn(operand);
     case Operand::Track:
-      return trackIn(entry.verb, operand);
+    case Operand::TrackOrOff:
+      return trackIn(entry, operand);
     case Operand::Shape:
       if (!operand.empty() && !parseAspect(operand)) return std::nullopt;
       return PlayerCommand{entry.verb, 0, std::string(operand)};
@@ -101,8 +102,8 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
 }
 
 const char* formOf(Operand operand) noexcept {
-  constexpr std::array kForms{"",       "+X|-X",   "+S|-S|S|P%",       "URL",   "[on|off]",
-                              "[WORD]", "+P|-P|P", "[N|previous|off]", "[W:H]", "+N|-N|N|last"};
+  constexpr std::array kForms{"",        "+X|-X",        "+S|-S|S|P%",       "URL",   "[on|off]",    "[WORD]",
+                              "+P|-P|P", "[N|previous]", "[N|previous|off]", "[W:H]", "+N|-N|N|last"};
   return kForms[static_cast<std::size_t>(operand)];
 }
 

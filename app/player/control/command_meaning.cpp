@@ -55,11 +55,12 @@ std::string meaningOf(const PlayerCommand& command) {
   if (command.verb == PlayerVerb::VolumeBy)
     return print("%.6g %% %s", std::abs(command.value), command.value < 0 ? "quieter" : "louder");
   if (command.verb == PlayerVerb::VolumeTo) return print("%.6g %s", command.value, entry.meaning);
-  if (entry.operand == Operand::Track && command.value > 0) return print("%s %.0f", entry.word, command.value);
-  if (entry.operand == Operand::Track && command.value == kPreviousTrack) {
-    return command.verb == PlayerVerb::AudioTrack ? "the previous sound track" : "the previous subtitles, or none";
+  if (entry.operand == Operand::Track || entry.operand == Operand::TrackOrOff) {
+    if (command.value > 0) return print("%s %.0f", entry.word, command.value);
+    const bool sound = command.verb == PlayerVerb::AudioTrack;
+    if (command.value == kPreviousTrack) return sound ? "the previous sound track" : "the previous subtitles, or none";
+    if (command.value < 0) return "no subtitles";
   }
-  if (entry.operand == Operand::Track && command.value < 0) return "no subtitles";
   if (command.verb == PlayerVerb::Mute && command.value != 0) return command.value > 0 ? "sound off" : "sound on";
   if (command.verb == PlayerVerb::ShowSubtitles && command.value != 0) {
     return command.value > 0 ? "subtitles on" : "subtitles off";

@@ -48,7 +48,7 @@ constexpr std::array kEntries{
     VerbEntry{PlayerVerb::Mute, "mute", Operand::OnOff, "sound on or off"},
     VerbEntry{PlayerVerb::AudioTrack, "audio", Operand::Track, "the next sound track"},
     VerbEntry{PlayerVerb::AudioDelayBy, "audio-delay", Operand::Step, "sound", true},
-    VerbEntry{PlayerVerb::SubtitleTrack, "subtitles", Operand::Track, "the next subtitles, or none"},
+    VerbEntry{PlayerVerb::SubtitleTrack, "subtitles", Operand::TrackOrOff, "the next subtitles, or none"},
     VerbEntry{PlayerVerb::ShowSubtitles, "show-subtitles", Operand::OnOff, "subtitles on or off"},
     VerbEntry{PlayerVerb::SubtitleDelayBy, "subtitle-delay", Operand::Step, "subtitles", true},
     VerbEntry{PlayerVerb::SubtitleSizeBy, "subtitle-size", Operand::Step, "subtitles", true},

@@ -104,6 +104,8 @@ TEST(Command, SaysWhichWordIsWrong) {
       << whyNoCommand("dance");
   EXPECT_EQ(whyNoCommand("select x"), "\"select\" takes +N|-N|N|last, not \"x\"");
   EXPECT_EQ(whyNoCommand("select"), "\"select\" takes +N|-N|N|last: it is missing");
+  EXPECT_EQ(whyNoCommand("audio off"), "\"audio\" takes [N|previous], not \"off\"") << "that is \"mute on\"";
+  EXPECT_EQ(whyNoCommand("subtitles no"), "\"subtitles\" takes [N|previous|off], not \"no\"");
   EXPECT_EQ(whyNoCommand("pause now"), "\"pause\" takes no word after it, but \"now\" was given");
 }
 
