@@ -8,6 +8,7 @@
 
 #include "app/player/control/control_protocol.h"
 #include "tests/fuzz/fuzz_port.h"
+#include "tests/support/command_words.h"
 
 namespace relievo {
 namespace {
@@ -26,7 +27,7 @@ void fuzz(std::string_view line) {
     require(!read.asked.error().empty(), "a refusal says why");
     isOneObject(errorLine(read.id, read.asked.error()));
   } else if (const auto* command = std::get_if<PlayerCommand>(&*read.asked)) {
-    const auto again = parseCommand(wordsOf(*command));
+    const auto again = parseCommand(test::wordsOf(*command));
     require(again && again->verb == command->verb && again->word == command->word, "its words mean the same");
     isOneObject(statusLine(read.id, {}, command->word));
   }

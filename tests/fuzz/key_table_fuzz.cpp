@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "app/player/control/key_table.h"
+#include "tests/support/command_words.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace relievo;
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   for (int code = 0; code < 0x300; ++code) {
     const auto* binding = table->find(PlayerState::Playing, static_cast<std::uint16_t>(code));
     if (binding == nullptr || !binding->press) continue;
-    const auto again = parseCommand(wordsOf(*binding->press));
+    const auto again = parseCommand(test::wordsOf(*binding->press));
     if (!again || again->verb != binding->press->verb) std::abort();
   }
   return 0;

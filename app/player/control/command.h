@@ -73,8 +73,6 @@ struct PlayerCommand {
 // Says what is wrong with words that are no command: `unknown command "dance"; known are: ..`, `"loop" takes [on|off],
 // not "x"`.
 [[nodiscard]] std::string whyNoCommand(std::string_view words);
-// Words that `parseCommand` reads back.
-[[nodiscard]] std::string wordsOf(const PlayerCommand& command);
 // All commands, for a message: "play, pause, .., seek +S|-S|S|P%, ..".
 [[nodiscard]] std::string commandWords();
 // What the command does, for the help: "pause, or go on", "10 s forward".

@@ -7,10 +7,12 @@
 
 #include "app/player/control/key_table.h"
 #include "hal/key_names.h"
+#include "tests/support/command_words.h"
 
 namespace relievo {
 namespace {
 
+using test::wordsOf;
 using Action = KeyEvent::Action;
 using State = PlayerState;
 

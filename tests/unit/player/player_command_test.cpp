@@ -7,10 +7,12 @@
 #include <string>
 
 #include "app/player/control/command.h"
+#include "tests/support/command_words.h"
 
 namespace relievo {
 namespace {
 
+using test::wordsOf;
 using V = PlayerVerb;
 
 TEST(Command, EachHasWordsThatReadBackAsItself) {

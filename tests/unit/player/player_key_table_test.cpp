@@ -11,9 +11,12 @@
 #include <string>
 
 #include "hal/key_names.h"
+#include "tests/support/command_words.h"
 
 namespace relievo {
 namespace {
+
+using test::wordsOf;
 
 using State = PlayerState;
 
