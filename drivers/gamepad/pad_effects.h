@@ -76,7 +76,6 @@ class PadEffects {
   [[nodiscard]] PadLevels follow(const glm::dvec3& force_n, const glm::dvec2& stick, double elapsed_s) RELIEVO_RT;
   // Whether the force of the last call is a contact.
   [[nodiscard]] bool contact() const RELIEVO_RT { return contact_; }
-  void reset() RELIEVO_RT { *this = PadEffects(motors_); }
 
  private:
   [[nodiscard]] RumbleLevel rumble(const glm::dvec3& rest, double elapsed_s) RELIEVO_RT;

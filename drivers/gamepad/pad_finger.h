@@ -30,7 +30,6 @@ class PadFinger {
   // the last call. Returns where the finger is, in the device's frame.
   [[nodiscard]] glm::dvec3 move(const glm::dvec2& stick, double pull, const glm::dvec3& force_n,
                                 double elapsed_s) RELIEVO_RT;
-  void reset() RELIEVO_RT { place_mm_ = kStartMm; }
 
  private:
   void steer(glm::dvec2 stick, const glm::dvec3& force_n, double elapsed_s) RELIEVO_RT;

@@ -60,14 +60,6 @@ class Md5 {
   std::unique_ptr<AVMD5, Free> state_;
 };
 
-inline std::string md5Of(const Frame& frame) {
-  std::vector<std::uint8_t> bytes;
-  appendRaw(frame, bytes);
-  Md5 md5;
-  md5.add(bytes);
-  return md5.sum();
-}
-
 // Runs FFmpeg's program. Throws with what it says when it fails.
 inline void runFfmpeg(const std::string& arguments, const std::string& words) {
   const std::string line = "ffmpeg -v error -nostdin -y " + arguments + " 2>" + words;

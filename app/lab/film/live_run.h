@@ -32,7 +32,6 @@ class LiveRun {
   // The moment of the surface that was felt in the last tick. If the awaited frame has not arrived, it is the time of
   // the newest frame, from which the surface was extrapolated.
   [[nodiscard]] double feltS() const { return felt_s_; }
-  [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }
 
  private:
   void hear(double now_s);

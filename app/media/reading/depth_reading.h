@@ -52,6 +52,6 @@ struct HueSpan {
 // For depth that is coded as a hue: which hues are holes; for Record3D also the range in use, of the later pictures
 // too. `kind` as above.
 [[nodiscard]] DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const KnownKind* kind,
-                                    HueSpan span, std::span<const Frame> later = {});
+                                    HueSpan span, std::span<const Frame> later);
 
 }  // namespace relievo

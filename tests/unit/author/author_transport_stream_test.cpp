@@ -122,7 +122,6 @@ TEST(TsPacer, SpreadsPacketsEvenlyBetweenReferences) {
   ASSERT_EQ(line.sent.size(), 5u);
   EXPECT_EQ(line.sent[4].first, std::chrono::milliseconds(40));
   EXPECT_EQ(line.sent[4].second, 188u);
-  EXPECT_EQ(line.pacer.sent(), 29u * 188);
   EXPECT_EQ(line.pacer.latest(), Duration(0));
 }
 

@@ -44,7 +44,6 @@ bool TsPacer::letOut(Duration until) {
     clock_.sleepUntil(due);
     const auto datagram = std::span(waiting_).subspan(at, std::min(kDatagram, waiting_.size() - at));
     if (!send_(datagram)) return false;
-    sent_ += datagram.size();
   }
   waiting_.clear();
   last_ = std::max(last_, until);

@@ -26,7 +26,6 @@ class TsPacer {
   // Sends the rest.
   [[nodiscard]] bool finish();
   [[nodiscard]] Duration latest() const noexcept { return latest_; }
-  [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
 
  private:
   [[nodiscard]] bool letOut(Duration until);
@@ -37,7 +36,6 @@ class TsPacer {
   std::optional<MonotonicTime> start_;  // the time of reference 0
   Duration last_{0};                    // the last reference
   Duration latest_{0};
-  std::uint64_t sent_ = 0;
 };
 
 }  // namespace relievo
