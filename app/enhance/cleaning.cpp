@@ -203,6 +203,28 @@ float medianOfSide(const DepthMap& map, int c, int r, float alike) {
   return *median;
 }
 
+// The codes of `kReach` rows above and below each seam between two bands, since bands change while others read them.
+std::vector<float> codesAtSeams(const DepthMap& map) {
+  std::vector<float> seams(map.at(0, 2 * kReach * (map.rows / kBandRows + 1)));
+  for (int r = kBandRows; r < map.rows; r += kBandRows) {
+    std::copy(&map.codes[map.at(0, r - kReach)], map.codes.data() + map.at(0, std::min(r + kReach, map.rows)),
+              &seams[map.at(0, r / kBandRows * 2 * kReach)]);
+  }
+  return seams;
+}
+
+// A band with up to `kReach` rows on both sides, so that it has the same result as the whole picture.
+DepthMap bandOf(const DepthMap& map, const std::vector<float>& seams, int first, int end) {
+  const int top = std::max(first - kReach, 0), bottom = std::min(end + kReach, map.rows);
+  const auto seamAt = [&](int r) { return seams.data() + map.at(0, r / kBandRows * 2 * kReach); };
+  DepthMap band(map.cols, bottom - top);
+  std::copy_n(map.holes.data() + map.at(0, top), band.size(), band.holes.data());
+  auto out = std::copy_n(seamAt(first), map.at(0, first - top), band.codes.begin());
+  out = std::copy_n(map.codes.data() + map.at(0, first), map.at(0, end - first), out);
+  std::copy_n(seamAt(end) + map.at(0, kReach), map.at(0, bottom - end), out);
+  return band;
+}
+
 }  // namespace
 
 CleaningCounts fillHoles(DepthMap& map, float noise) {
@@ -251,30 +273,28 @@ CleaningCounts fillHoles(DepthMap& map, float noise) {
 void filterByMedian(DepthMap& map, float noise) {
   const float alike = DepthMap::kStep + 7 * noise;  // the spread of more than 25 samples of one side
   const cv::Mat window = cv::getStructuringElement(cv::MORPH_RECT, {2 * kReach + 1, 2 * kReach + 1});
-  const cv::Mat codes = viewOf(map.codes, map), holes = viewOf(map.holes, map);
-  std::vector<float> filtered(map.size());
+  const std::vector<float> seams = codesAtSeams(map);
   inBands(map.rows, [&](int first, int end) {
-    // With the rows around them, so that a band has the same result as the whole picture.
-    const cv::Range rows(std::max(first - kReach, 0), std::min(end + kReach, map.rows));
+    DepthMap band = bandOf(map, seams, first, end);
+    const cv::Mat codes = viewOf(band.codes, band), holes = viewOf(band.holes, band);
     cv::Mat lowest, highest, median, near_hole;
-    cv::erode(codes.rowRange(rows), lowest, window);
-    cv::dilate(codes.rowRange(rows), highest, window);
-    cv::medianBlur(codes.rowRange(rows), median, 2 * kReach + 1);
-    cv::dilate(holes.rowRange(rows), near_hole, window);
+    cv::erode(codes, lowest, window);
+    cv::dilate(codes, highest, window);
+    cv::medianBlur(codes, median, 2 * kReach + 1);
+    cv::dilate(holes, near_hole, window);
     for (int r = first; r < end; ++r) {
-      const int at = r - rows.start;
+      const int at = r - std::max(first - kReach, 0);
       const auto *const low = lowest.ptr<float>(at), *const high = highest.ptr<float>(at);
-      const auto* const hole = map.holes.data() + map.at(0, r);
+      const auto* const hole = band.holes.data() + band.at(0, at);
       const auto* const beside = near_hole.ptr<std::uint8_t>(at);
       auto* const out = median.ptr<float>(at);
       for (int c = 0; c < map.cols; ++c) {
         if (beside[c] == 0 && high[c] - low[c] <= alike) continue;
-        out[c] = hole[c] != 0 ? 0 : medianOfSide(map, c, r, alike);
+        out[c] = hole[c] != 0 ? 0 : medianOfSide(band, c, at, alike);
       }
-      std::copy_n(out, map.cols, filtered.data() + map.at(0, r));
+      std::copy_n(out, map.cols, map.codes.data() + map.at(0, r));
     }
   });
-  map.codes = std::move(filtered);
 }
 
 }  // namespace relievo

@@ -76,7 +76,7 @@ class DepthEnhancer {
 
   [[nodiscard]] std::size_t neighbours() const noexcept;
   void enhanceUntil(std::size_t end);
-  [[nodiscard]] bool clean(Picture& picture) const;
+  [[nodiscard]] bool clean(Picture& picture);
   void enhance(std::size_t index);
   [[nodiscard]] DepthMap steadied(std::size_t index);
   [[nodiscard]] float grain(const Picture& picture) const;
@@ -89,6 +89,7 @@ class DepthEnhancer {
   int width_ = 0, height_ = 0;
   std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones
   std::size_t done_ = 0;
+  DepthMap spare_;  // the next picture's memory
   std::deque<Frame> ready_;
   EnhancementSummary sums_;
 };

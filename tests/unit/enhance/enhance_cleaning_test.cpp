@@ -130,13 +130,14 @@ TEST(EnhanceCleaning, MakesNoHoleWhereThereWasNone) {
   EXPECT_EQ(std::count(map.holes.begin(), map.holes.end(), 1), 0);
 }
 
+// In three bands, the last of one row.
 TEST(EnhanceCleaning, IsTheMedianWhereThereIsNoStep) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> noise(-400, 400);
-  auto map = mapOf(40, 30, [&](int c, int r) { return static_cast<float>(20000 + 20 * c + 10 * r) + noise(random); });
+  auto map = mapOf(40, 65, [&](int c, int r) { return static_cast<float>(20000 + 20 * c + 10 * r) + noise(random); });
   const DepthMap before = map;
   filterByMedian(map, 200);
-  for (int r = 2; r < 28; ++r) {
+  for (int r = 2; r < 63; ++r) {
     for (int c = 2; c < 38; ++c) {
       std::vector<float> around;
       for (int y = r - 2; y <= r + 2; ++y) {
