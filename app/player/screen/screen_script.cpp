@@ -23,6 +23,12 @@ constexpr double kEdge = 30;  // of the mark for a finger beside the picture
 constexpr double kTop = 30;   // of the text at the top of the view
 constexpr double kGap = 10;   // between two of its parts
 
+// Over a film the view's shorter side is kScreenRows long, so that a portrait view has room for a line of words. The
+// bar lies in its lowest kScreenRows.
+double filmRows(double aspect) noexcept {
+  return kScreenRows / std::min(aspect, 1.0);
+}
+
 // Drops the last parts that do not fit.
 std::string shortened(std::string parts, int cells) {
   for (std::size_t end = parts.rfind("   "); static_cast<int>(parts.size()) > cells && end != std::string::npos;
@@ -85,6 +91,7 @@ void addBarWords(Script& script, const BarWords& words) {
 void addBar(Script& script, const ScreenBar& bar) {
   const double inner = script.width() - 2 * kMargin;
   const BarWords words = wordsOf(bar, script.width());
+  script.beginAt(script.rows() - kScreenRows);
   script.box({0, words.top(), script.width(), kScreenRows - words.top()}, kBlack, 0.6);
   addPointed(script, bar);
   addBarWords(script, words);
@@ -100,6 +107,7 @@ void addBar(Script& script, const ScreenBar& bar) {
     }
     script.box({kMargin + inner * bar.position - 3, kBarTop - 5, 6, kBarHeight + 10}, kWhite, 1);
   }
+  script.beginAt(0);
 }
 
 // One scale; a column and a figure for each finger that has a device. All above `bottom`.
@@ -130,12 +138,13 @@ void addForces(Script& script, const std::array<std::optional<double>, 2>& force
 // An arrowhead at the edge that is nearest to the finger, pointing to it.
 void addFinger(Script& script, std::size_t which, const FingerBeside& finger) {
   const double x = std::clamp(script.width() * (0.5 + finger.across), kEdge, script.width() - kEdge);
-  const double y = std::clamp(kScreenRows * (0.5 - finger.up), kEdge, kScreenRows - kEdge);
-  const double to_x = script.width() * (0.5 + finger.across) - x, to_y = kScreenRows * (0.5 - finger.up) - y;
+  const double y = std::clamp(script.rows() * (0.5 - finger.up), kEdge, script.rows() - kEdge);
+  const double to_x = script.width() * (0.5 + finger.across) - x, to_y = script.rows() * (0.5 - finger.up) - y;
   const double length = std::max(std::hypot(to_x, to_y), 1e-3);
   const double along_x = 24 * to_x / length, along_y = 24 * to_y / length;
-  script.shape(print("m %.1f %.1f l %.1f %.1f %.1f %.1f", 30 + along_x, 30 + along_y, 30 - along_x - along_y,
-                     30 - along_y + along_x, 30 - along_x + along_y, 30 - along_y - along_x),
+  script.shape({{30 + along_x, 30 + along_y},
+                {30 - along_x - along_y, 30 - along_y + along_x},
+                {30 - along_x + along_y, 30 - along_y - along_x}},
                x - 30, y - 30, kFingerColors[which], 0.9);
 }
 
@@ -234,21 +243,22 @@ std::string screenHead(double aspect) {
 }
 
 std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height) {
-  Script script(kScreenRows * aspect);
+  Script page(kScreenRows * aspect);
   if (content.list) {
-    addList(script, *content.list, content.help_key);
-    return script.take();
+    addList(page, *content.list, content.help_key);
+    return page.take();
   }
   if (!content.keys.empty()) {
-    addKeys(script, {content.keys, content.keys_page, content.help_key, view_height});
-    if (content.notice) addNoticeInHeading(script, *content.notice);
-    return script.take();
+    addKeys(page, {content.keys, content.keys_page, content.help_key, view_height});
+    if (content.notice) addNoticeInHeading(page, *content.notice);
+    return page.take();
   }
+  Script script(filmRows(aspect) * aspect, filmRows(aspect));
   for (std::size_t i = 0; i < content.fingers.size(); ++i) {
     if (content.fingers[i]) addFinger(script, i, *content.fingers[i]);
   }
   if (content.bar) addBar(script, *content.bar);
-  const double room = kScreenRows * roomForWords(content, aspect);
+  const double room = script.rows() * roomForWords(content, aspect);
   addForces(script, content.forces_n, room);
   addTop(script, content, room);
   return script.take();
@@ -265,18 +275,20 @@ std::vector<std::string> linesOverPosters(const ScreenContent& content, double a
 
 double roomForWords(const ScreenContent& content, double aspect) {
   if (!content.bar) return 1;
-  return wordsOf(*content.bar, kScreenRows * aspect).top() / kScreenRows;
+  const double rows = filmRows(aspect);
+  return 1 - (kScreenRows - wordsOf(*content.bar, rows * aspect).top()) / rows;
 }
 
 std::optional<double> barShareAt(double across, double down, double aspect) noexcept {
-  const double x = across * kScreenRows * aspect, y = down * kScreenRows;
+  const double width = filmRows(aspect) * aspect;
+  const double x = across * width, y = kScreenRows - (1 - down) * filmRows(aspect);
   const bool on_it = y >= kBarTop - kBarReach && y <= kBarTop + kBarHeight + kBarReach && x >= 0.5 * kMargin &&
-                     x <= kScreenRows * aspect - 0.5 * kMargin;
+                     x <= width - 0.5 * kMargin;
   return on_it ? std::optional(barShareAlong(across, aspect)) : std::nullopt;
 }
 
 double barShareAlong(double across, double aspect) noexcept {
-  const double width = kScreenRows * aspect;
+  const double width = filmRows(aspect) * aspect;
   return std::clamp((across * width - kMargin) / (width - 2 * kMargin), 0.0, 1.0);
 }
 

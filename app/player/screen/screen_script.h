@@ -10,7 +10,8 @@
 
 namespace relievo {
 
-// The script's units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it.
+// The script's units: the view is 720 of them high, whatever its pixels, and as wide as the viewer sees it. Over a film
+// in a portrait view they are smaller: 720 are its width.
 constexpr double kScreenRows = 720;
 
 // For a view that is `aspect` times as wide as it is high.

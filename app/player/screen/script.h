@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/player/screen/screen_script.h"
 #include "app/render/text/ass_text.h"
 #include "platform/print.h"
 
@@ -32,28 +33,40 @@ struct Area {
 // Collects lines, each over those before it.
 class Script {
  public:
-  explicit Script(double width) : width_(width) {}
+  // The view is `width` by `rows` of the units in which things are placed.
+  explicit Script(double width, double rows = kScreenRows) : width_(width), rows_(rows) {}
 
   void box(const Area& at, const char* color, double opacity) {
-    shape(print("m 0 0 l %.1f 0 %.1f %.1f 0 %.1f", at.width, at.width, at.height, at.height), at.x, at.y, color,
-          opacity);
+    shape({{{0, 0}, {at.width, 0}, {at.width, at.height}, {0, at.height}}}, at.x, at.y, color, opacity);
   }
-  void shape(const std::string& path, double x, double y, const char* color, double opacity) {
-    add(print("{\\an7\\pos(%.1f,%.1f)\\bord0\\shad0\\1c&H%s&\\1a&H%02X&\\p1}", x, y, color,
+  using Corners = std::vector<std::array<double, 2>>;
+  void shape(const Corners& corners, double x, double y, const char* color, double opacity) {
+    std::string path = "m";
+    for (const auto& [across, down] : corners) {
+      path += print(" %.1f %.1f", across * unit(), down * unit());
+      if (path.find('l') == std::string::npos) path += " l";
+    }
+    add(print("{\\an7\\pos(%.1f,%.1f)\\bord0\\shad0\\1c&H%s&\\1a&H%02X&\\p1}", x * unit(), (top_ + y) * unit(), color,
               static_cast<unsigned>(std::lround(255 * (1 - opacity)))) +
         path + "{\\p0}");
   }
   // `corner`: the text's corner at (x, y), as on a keypad; 7 is its top left.
   void text(const std::string& words, int corner, double x, double y, double size, const char* color = kWhite) {
     if (words.empty()) return;
-    add(print("{\\an%d\\pos(%.1f,%.1f)\\fs%.1f\\1c&H%s&}", corner, x, y, size, color) + AssText::escaped(words));
+    add(print("{\\an%d\\pos(%.1f,%.1f)\\fs%.1f\\1c&H%s&}", corner, x * unit(), (top_ + y) * unit(), size * unit(),
+              color) +
+        AssText::escaped(words));
   }
+  // From now on y is counted from here.
+  void beginAt(double top) noexcept { top_ = top; }
   [[nodiscard]] double width() const noexcept { return width_; }
+  [[nodiscard]] double rows() const noexcept { return rows_; }
   [[nodiscard]] std::vector<std::string> take() { return std::move(lines_); }
 
  private:
+  [[nodiscard]] double unit() const noexcept { return kScreenRows / rows_; }
   void add(const std::string& text) { lines_.push_back(print("%zu,0,Default,,0,0,0,,", lines_.size()) + text); }
-  double width_;
+  double width_, rows_, top_ = 0;
   std::vector<std::string> lines_;
 };
 

@@ -99,7 +99,7 @@ TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
     content.notice = ScreenNotice{std::string("Saved /home/somebody/Pictures/") + title, 0.5};
     content.warning = std::string(title) + ": not one picture of its video could be decoded; it is empty or damaged";
     content.hint = "Press into the picture to feel it.  h: all keys";
-    if (!narrow()) expectApart(content);
+    expectApart(content);
     content.hint.clear();
     content.warning.clear();
     content.statistics = {{"rate", "29.9 of 30.00 frames/s, 0 dropped"},

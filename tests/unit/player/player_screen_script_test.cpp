@@ -53,24 +53,39 @@ TEST(ScreenScript, WordsHaveNoMeaningOfTheirOwn) {
 
 TEST(ScreenScript, TheTimesStayWholeInANarrowWindow) {
   ScreenContent content;
-  content.bar = ScreenBar{.times = "0:07 / 0:12   paused   repeat"};
+  content.bar = ScreenBar{.times = "1:01:07 / 1:02:12   paused   1/8x   film 12 of 345   repeat"};
   const auto isShown = [&](double aspect, const std::string& words) {
     return testing::Value(screenLines(content, aspect), testing::Contains(testing::EndsWith(words)));
   };
-  EXPECT_TRUE(isShown(16.0 / 9, "}0:07 / 0:12   paused   repeat"));
-  EXPECT_TRUE(isShown(0.4, "}0:07 / 0:12")) << "16 letters";
+  EXPECT_TRUE(isShown(16.0 / 9, "}1:01:07 / 1:02:12   paused   1/8x   film 12 of 345   repeat"));
+  EXPECT_TRUE(isShown(0.4, "}1:01:07 / 1:02:12   paused   1/8x   film 12 of 345")) << "51 letters";
 }
 
 // The status stands above the bar where there is no room beside the times.
 TEST(ScreenScript, TheStatusIsWholeInAPortraitWindow) {
   ScreenContent content;
-  content.bar = ScreenBar{.title = "film.mkv", .times = "0:07 / 0:12   paused", .status = "3D: mono   touch: mouse"};
+  content.bar = ScreenBar{
+      .title = "film.mkv", .times = "0:07 / 0:12   paused   film 12 of 345", .status = "3D: mono   touch: mouse"};
   for (const double aspect : {16.0 / 9, 9.0 / 16}) {
     const auto lines = screenLines(content, aspect);
     EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}3D: mono   touch: mouse"))) << aspect;
-    EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}0:07 / 0:12   paused"))) << aspect;
+    EXPECT_THAT(lines, testing::Contains(testing::EndsWith("}0:07 / 0:12   paused   film 12 of 345"))) << aspect;
   }
-  EXPECT_LT(roomForWords(content, 9.0 / 16), roomForWords(content, 16.0 / 9));
+  const double wide = roomForWords(content, 16.0 / 9), portrait = roomForWords(content, 9.0 / 16);
+  content.bar->status.clear();
+  EXPECT_EQ(roomForWords(content, 16.0 / 9), wide);
+  EXPECT_GT(roomForWords(content, 9.0 / 16), portrait);
+}
+
+// The view of 405 x 720 is laid out as one of 720 x 1280.
+TEST(ScreenScript, APortraitViewHasRoomForALineOfFigures) {
+  ScreenContent content;
+  content.statistics = {{"rate", "29.9 of 30.00 frames/s, 0 dropped"}};
+  EXPECT_THAT(screenLines(content, 9.0 / 16), testing::Contains(testing::EndsWith("frames/s, 0 dropped")));
+  constexpr double kBarFromBottom = 720 - 664;
+  EXPECT_NEAR(barShareAt(40.0 / 720, 1 - kBarFromBottom / 1280, 9.0 / 16).value_or(-1), 0, 1e-9);
+  EXPECT_NEAR(barShareAt(1 - 40.0 / 720, 1 - kBarFromBottom / 1280, 9.0 / 16).value_or(-1), 1, 1e-9);
+  EXPECT_FALSE(barShareAt(0.5, 1 - kBarFromBottom / 720, 9.0 / 16)) << "above it";
 }
 
 // In the window of a portrait film on a screen of 640x360.
