@@ -37,6 +37,11 @@ TEST(Fold, WideLettersTakeTwoCells) {
   EXPECT_THAT(folded("فيلم", 4, 1), ElementsAre("فيلم"));
 }
 
+TEST(Fold, ANumberIsNotBroken) {
+  EXPECT_THAT(folded("steps of 4.54 mm", 11, 2), ElementsAre("steps of ", "4.54 mm"));
+  EXPECT_THAT(folded("one.film.mkv", 9, 2), ElementsAre("one.film.", "mkv"));
+}
+
 TEST(Fold, BrokenBytesAreNeitherLostNorReadPast) {
   for (const char* broken : {"\xff", "\xc3", "a\xe2\x82", "\xf0\x9f"}) {
     EXPECT_THAT(folded(broken, 10, 1), ElementsAre(broken));
