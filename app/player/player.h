@@ -196,7 +196,6 @@ class Player {
   MouseWishes mouse_;
   Statistics statistics_;
   bool words_shown_ = true;
-  Duration subtitle_delay_{0};
   LoopAB loop_ab_;
 
   PlayerState state_ = PlayerState::Boot;

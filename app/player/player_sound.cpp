@@ -34,10 +34,6 @@ bool Player::obeySound(const PlayerCommand& command, MonotonicTime now) {
     case PlayerVerb::ShowSubtitles:
       showWords(command.value == 0 ? !words_shown_ || !film_.info().words : command.value > 0, now);
       return true;
-    case PlayerVerb::SubtitleDelayBy:
-      subtitle_delay_ += fromSeconds(command.value);
-      screen_.delaySubtitles(subtitle_delay_);
-      return true;
     case PlayerVerb::LoopAB:
       loop_ab_.mark(film_.place(now));
       return true;

@@ -127,11 +127,6 @@ void FilmScreen::jump() {
   picture_.cut();
 }
 
-void FilmScreen::delaySubtitles(Duration delay) {
-  picture_.delaySubtitles(delay);
-  redraw_ = true;
-}
-
 // At a cut the subtitles may stand at another depth at once.
 void FilmScreen::lookAhead(const Frame& depth, const DepthComing& coming) {
   if (!subtitles().mayShow() || depth.empty()) return jump();
@@ -151,6 +146,9 @@ void FilmScreen::obey(const PlayerCommand& command) {
       return text_.toggleStatistics();
     case PlayerVerb::ZoomBy:
       picture_.changeZoom(command.value);
+      break;
+    case PlayerVerb::SubtitleDelayBy:
+      subtitles().changeDelay(fromSeconds(command.value));
       break;
     case PlayerVerb::SubtitleSizeBy:
       subtitles().changeSize(command.value);

@@ -50,8 +50,7 @@ class FilmScreen {
                                   const FingerMarks& fingers, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
-  [[nodiscard]] double subtitleSize() const noexcept { return picture_.subtitles().size(); }
-  void delaySubtitles(Duration delay);
+  [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return picture_.subtitles(); }
   // Call when the film continues elsewhere: after an opening or a seek.
   void jump();
   // Saves the shown picture, without the text over it. `film`: its file's name, for the screenshot's. A notice reports
@@ -82,8 +81,8 @@ class FilmScreen {
   // Call when the viewer has pressed a key: the text is shown for a while.
   void wake(MonotonicTime now) noexcept { text_.wake(now); }
   [[nodiscard]] ScreenText& text() noexcept { return text_; }
-  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, SubtitleSizeBy, Info and Statistics;
-  // ignores other commands.
+  // Handles FullScreen, Layout, SwapEyes, DepthBy, ScreenBy, ZoomBy, Aspect, SubtitleDelayBy, SubtitleSizeBy, Info and
+  // Statistics; ignores other commands.
   void obey(const PlayerCommand& command);
 
   [[nodiscard]] const StereoSettings& stereo() const noexcept { return picture_.stereo(); }

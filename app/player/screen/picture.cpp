@@ -44,7 +44,7 @@ const char* notTaken(StereoSignal signal) noexcept {
 
 void Picture::close() noexcept {
   renderer_.reset();  // its GL objects die in the context that made them
-  uploaded_ = false;
+  due_.uploaded = false;
   display_.close();
 }
 
@@ -63,9 +63,7 @@ void Picture::announce(const AnnouncedFilm& film) {
 }
 
 void Picture::setPair(const FramePair& pair, std::optional<Duration> late) {
-  pair_ = pair;
-  late_ = late;
-  uploaded_ = false;
+  due_ = {.pair = pair, .late = late};
 }
 
 void Picture::clear() noexcept {
@@ -125,24 +123,25 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     renderer_->setStereo(stereo_);
     renewed = true;
   }
-  if (!uploaded_ && !pair_.color.empty()) {
-    if (auto set = renderer_->setFrame(pair_.color, pair_.depth, calibration_, volume_, pair_.right); !set) return set;
-    uploaded_ = true;
+  if (!due_.uploaded && !due_.pair.color.empty()) {
+    if (auto set = renderer_->setFrame(due_.pair.color, due_.pair.depth, calibration_, volume_, due_.pair.right); !set)
+      return set;
+    due_.uploaded = true;
   }
-  if (uploaded_ && std::exchange(rehearse_, false)) {
+  if (due_.uploaded && std::exchange(rehearse_, false)) {
     if (auto rehearsed = renderer_->rehearse(surface); !rehearsed) return rehearsed;
     words_.forget();
   }
   const TextFrame frame = textFrame();
   const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
-  if (subtitles_.draw(frame, pair_.color.pts - subtitle_delay_, room) || renewed) {
+  if (subtitles_.draw(frame, due_.pair.color.pts, room) || renewed) {
     renderer_->setSubtitles(frame, subtitles_.pictures());
   }
   if (std::exchange(cut_, false)) renderer_->cut();
   renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
-  if (auto drawn = renderer_->draw(surface, fingers, std::exchange(late_, Duration(0))); !drawn) return drawn;
+  if (auto drawn = renderer_->draw(surface, fingers, std::exchange(due_.late, Duration(0))); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
 }

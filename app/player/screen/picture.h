@@ -56,10 +56,8 @@ class Picture {
   void clear() noexcept;
   // The text over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
-  // Each is shown `delaySubtitles` later than its time in the film.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return subtitles_; }
-  void delaySubtitles(Duration delay) noexcept { subtitle_delay_ = delay; }
   // The next picture does not continue this one.
   void cut() noexcept { cut_ = true; }
   // The reliefs after the present picture, for the subtitles; they must live until the next call.
@@ -130,17 +128,19 @@ class Picture {
   DisplayVolume volume_;
   Duration frame_budget_{0};
   std::unique_ptr<SceneRenderer> renderer_;
-  FramePair pair_;
+  struct Due {
+    FramePair pair;
+    std::optional<Duration> late;
+    bool uploaded = false;  // to the renderer
+  };
+  Due due_;  // what `show` shows
   ScreenContent text_;
   ScreenWords words_;
   SubtitleWords subtitles_;
-  Duration subtitle_delay_{0};
   ReliefAhead ahead_;
   bool cut_ = false, capture_due_ = false;
   bool rehearse_ = false;  // before the first picture of a film
-  std::optional<Duration> late_;
   std::optional<Capture> captured_;
-  bool uploaded_ = false;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;
   RenderStatistics statistics_;

@@ -140,7 +140,7 @@ bool SubtitleWords::lift(const TextFrame& frame, double down, bool anew) {
 }
 
 bool SubtitleWords::draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room) {
-  const bool changed = drawAll(frame, time, shown_ && !room.none);
+  const bool changed = drawAll(frame, time - delay_, shown_ && !room.none);
   return lift(frame, room.down, changed) || changed;
 }
 

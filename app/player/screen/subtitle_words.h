@@ -35,7 +35,10 @@ class SubtitleWords {
   // Scales the film's letters: 0.5 to 3.
   void changeSize(double by) noexcept;
   [[nodiscard]] double size() const noexcept { return size_; }
-  // True if the pictures differ from the last ones.
+  // Each subtitle is shown this much later than its time in the film.
+  void changeDelay(Duration by) noexcept { delay_ += by; }
+  [[nodiscard]] Duration delay() const noexcept { return delay_; }
+  // The subtitles at this time of the film. True if the pictures differ from the last ones.
   bool draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room = {});
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
 
@@ -49,6 +52,7 @@ class SubtitleWords {
 
   bool shown_ = true, was_shown_ = true;
   double size_ = 1;
+  Duration delay_{0};
   std::optional<AssText> text_;
   bool gave_up_ = false;
   std::shared_ptr<const std::string> styles_;             // of the script in `text_`
