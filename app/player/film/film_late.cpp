@@ -14,16 +14,16 @@ void FilmPlayback::followDecoder(MonotonicTime now) {
   if (!own_threads_ || held_ || rushes() || !position) return decode_pace_.pause();
   const FilmFeed::Effort effort = feed_.effort();
   const bool dry = head_.ahead().empty() && !head_.last();
+  const bool left_out = decode_pace_.leavesOut();
   decode_pace_.look({.filled = head_.filled() || head_.last(),
                      .rested = effort.rested,
                      .decodes = effort.decodes,
                      .late = dry ? *position - (picture().color.pts + period()) : Duration(0)},
                     now);
-  const bool hurry = decode_pace_.takeHurry();
-  if (decode_pace_.leavesOut() == leaves_out_ && !hurry) return;
-  leaves_out_ = decode_pace_.leavesOut();
-  feed_.leaveOut(leaves_out_, hurry ? std::optional(*position + kAfterHurry) : std::nullopt);
-  if (leaves_out_) notes_.slow();
+  const bool leaves_out = decode_pace_.leavesOut(), hurry = decode_pace_.takeHurry();
+  if (leaves_out == left_out && !hurry) return;
+  feed_.leaveOut(leaves_out, hurry ? std::optional(*position + kAfterHurry) : std::nullopt);
+  if (leaves_out) notes_.slow();
 }
 
 std::optional<Duration> FilmPlayback::late(MonotonicTime now) const {

@@ -66,7 +66,6 @@ void FilmPlayback::close(MonotonicTime now) {
   pace_.forget();
   held_ = begun_ = sought_ = starved_ = false;
   decode_pace_ = {};
-  leaves_out_ = false;
   stepped_ = 0;
   jumped_ = true;
   target_.reset();

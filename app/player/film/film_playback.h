@@ -198,7 +198,6 @@ class FilmPlayback {
   bool starved_ = false;                    // the picture has stopped while the clock runs on
   std::uint64_t shown_color_ = 0;           // Playhead::colors, of the picture on the screen
   DecodePace decode_pace_;
-  bool leaves_out_ = false;  // last argument of the feed's leaveOut
 
   PairCounters pairs_before_;  // of earlier films
   PlayedTime played_;
