@@ -131,8 +131,7 @@ void Player::step(MonotonicTime now) {
   readRemote(now);
   followDevice();
   film_.noteNews();
-  followReader(now);  // may show a picture
-  followPrograms(now);
+  followReader(now);
   followClock(now);
   followLoopAB(now);
   while (auto subtitle = film_.takeSubtitle()) screen_.subtitles().add(std::move(*subtitle));
@@ -144,13 +143,7 @@ void Player::step(MonotonicTime now) {
   followBrowser(now);
   followFault(now);
   tellStatus(now);
-  followPrograms(now);
-}
-
-// Between any two pictures shown, so that no answer waits for more than one refresh of the screen. What a program asks
-// for shows nothing itself.
-void Player::followPrograms(MonotonicTime now) {
-  if (parts_.control != nullptr) parts_.control->attend(*this, now);
+  if (parts_.control != nullptr) parts_.control->attend(*this, now);  // what a program asks for shows nothing itself
 }
 
 // The time of the next picture, but soon enough to answer keys.

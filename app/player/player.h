@@ -107,7 +107,6 @@ class Player {
   void failDrawing(const Error& error);
   void boot();
   void step(MonotonicTime now);
-  void followPrograms(MonotonicTime now);
   [[nodiscard]] bool alive() const noexcept;
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;
   void finish(MonotonicTime now);
