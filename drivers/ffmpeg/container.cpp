@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -37,6 +38,15 @@ Duration framePeriodOf(const AVStream& stream) noexcept {
     if (rate.num > 0 && rate.den > 0) return durationFrom(1, av_inv_q(rate));
   }
   return Duration(0);
+}
+
+// From the decoding time of a first picture to its presentation, of the stream where it is longest.
+Duration decodingDelayOf(const AVFormatContext& context) noexcept {
+  Duration longest{0};
+  for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
+    longest = std::max(longest, stream->codecpar->video_delay * framePeriodOf(*stream));
+  }
+  return longest;
 }
 
 std::string layoutOf(const AVChannelLayout& layout) {
@@ -192,8 +202,9 @@ Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
     end = std::max(end, durationFrom(stream.start_time + stream.duration, stream.time_base));
   }
   if (end > start) return std::min(stated, end - start);
-  const bool from_zero = std::string_view(context.iformat->name).starts_with("matroska");
-  return from_zero && stated > start ? stated - start : stated;
+  const std::string_view name(context.iformat->name);
+  const Duration more = name.starts_with("matroska") ? start : name == "flv" ? decodingDelayOf(context) : Duration(0);
+  return stated > more ? stated - more : stated;
 }
 
 int earliestStream(const AVFormatContext& context, int leading) noexcept {

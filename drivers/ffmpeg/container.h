@@ -40,8 +40,8 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 // microseconds, so that the first picture's time becomes exactly 0.
 [[nodiscard]] Duration startOf(const AVFormatContext& context) noexcept;
 
-// How long the film is, by the container; 0 if unknown. Matroska and QuickTime may count from time 0, `start` is
-// where the film begins.
+// How long the film is, by the container; 0 if unknown. Matroska and QuickTime may count from time 0, FLV counts from
+// the first decoding time; `start` is where the film begins.
 [[nodiscard]] Duration lengthOf(const AVFormatContext& context, Duration start) noexcept;
 
 // The leading stream, unless another video stream begins earlier.

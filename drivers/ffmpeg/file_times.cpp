@@ -109,11 +109,23 @@ Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& en
   return page.size() > 0 && some.end() - page.begin() > 5 && (page.begin()[5] & kLast) == 0 ? end.picture : Duration(0);
 }
 
-constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe", brokenPicture},
-                               OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone}};
+// A GIF file without its trailer (GIF89a, 27). Zeros may stand behind it.
+Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  constexpr std::uint8_t kTrailer = 0x3b;
+  std::array<std::uint8_t, 256> tail{};
+  const std::span some =
+      std::span(tail).first(static_cast<std::size_t>(std::min(end.bytes, static_cast<std::int64_t>(tail.size()))));
+  if (!readAt(context, end.bytes - static_cast<std::int64_t>(some.size()), some)) return Duration(0);
+  const auto last = std::ranges::find_if(some.rbegin(), some.rend(), [](std::uint8_t byte) { return byte != 0; });
+  return last != some.rend() && *last != kTrailer ? end.picture : Duration(0);
+}
 
-constexpr Duration kBehindBroken = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
-constexpr Duration kUsualPicture = std::chrono::milliseconds(40);   // where its length is unknown
+constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe", brokenPicture},
+                               OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone},
+                               OwnSign{"gif", trailerGone}};
+
+constexpr Duration kDoubtful = std::chrono::milliseconds(250);     // FFmpeg's parsers are some pictures late
+constexpr Duration kUsualPicture = std::chrono::milliseconds(40);  // where its length is unknown
 
 }  // namespace
 
@@ -140,24 +152,35 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
   }
 }
 
+Duration PacketLengths::of(const Packet& packet, Duration stated) {
+  if (stated > Duration(0) || !packet.dts) return stated;
+  Line& line = lines_.try_emplace(packet.stream, Line{.last = *packet.dts}).first->second;
+  if (*packet.dts > line.last) line.step = *packet.dts - line.last;
+  line.last = *packet.dts;
+  return line.step;
+}
+
 void FileGaps::begin() noexcept {
   ends_.clear();
   missing_.clear();
 }
 
-void FileGaps::note(const Packet& packet, Duration length, bool broken, const std::string& url) {
+void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, const std::string& url) {
+  if (doubt != Doubt::None) {
+    for (auto& [stream, other] : ends_) other.doubtful_until = other.time + kDoubtful;
+  }
   if (!packet.dts || length <= Duration(0)) return;
-  auto& [end, broken_until] = ends_.try_emplace(packet.stream, End{*packet.dts, *packet.dts}).first->second;
+  auto& [end, doubtful_until] = ends_.try_emplace(packet.stream, End{*packet.dts, *packet.dts}).first->second;
   const Duration gap = *packet.dts - end;
-  if (gap > kWholeWithin && (broken || end < broken_until)) {
+  if (gap > kWholeWithin && end < doubtful_until) {
     missing_[packet.stream] += gap;
-    if (isTold(++gaps_)) {
+    if (doubt != Doubt::Reported && isTold(++gaps_)) {
       log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be read", url.c_str(),
           toSeconds(gap), toSeconds(end));
     }
   }
   end = *packet.dts + length;
-  if (broken) broken_until = end + kBehindBroken;
+  if (doubt != Doubt::None) doubtful_until = end + kDoubtful;
 }
 
 Duration FileGaps::missing() const noexcept {
@@ -192,23 +215,26 @@ void FileEnd::note(const Packet& packet, Duration length, bool broken, std::int6
 // A length that the container states counts with a single programme only, and of a list only from its beginning on: the
 // times within it may jump. A length that FFmpeg took from the last times of a file counts if the file has become
 // shorter since.
-void FileEnd::reach(const AVFormatContext& context) noexcept {
+void FileEnd::reach(const AVFormatContext& context, bool doubtful) noexcept {
   const bool one = context.nb_programs < 2;
   const bool stated = context.duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
   const bool jumps = (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
   const bool told = one && context.duration > 0 && (stated ? !jumps || !sought_ : bytesOf(context) < reached_.bytes);
   missing_ = told ? lengthOf(context, start_) - reached_.latest : Duration(0);
-  if (one && jumps) missing_ = std::max(missing_, unread(context));
+  const bool unreadable = doubtful && !stated;
+  if (one && (jumps || unreadable)) missing_ = std::max(missing_, unread(context, unreadable));
   if (missing_ <= kWholeWithin) missing_ = broken_ ? reached_.picture : Duration(0);
   const auto own = std::ranges::find(kOwnSigns, context.iformat->name, &OwnSign::container);
   if (own != kOwnSigns.end()) missing_ = std::max(missing_, own->missing(context, reached_));
 }
 
-// The time for which the bytes behind the last packet that were never written would last, at the mean bit rate.
-Duration FileEnd::unread(const AVFormatContext& context) const noexcept {
+// The time for which the bytes behind the last packet would last, at the mean bit rate, if they were never written or
+// cannot be read.
+Duration FileEnd::unread(const AVFormatContext& context, bool unreadable) const noexcept {
   const auto& [latest, picture, read, bytes] = reached_;
   const std::int64_t rest = bytes - read;
-  if (read <= 0 || rest < kTailBytes || rest < bytes / 50 || !endsInZeros(context, bytes)) return Duration(0);
+  if (read <= 0 || rest < bytes / 50) return Duration(0);
+  if (!unreadable && (rest < kTailBytes || !endsInZeros(context, bytes))) return Duration(0);
   return fromSeconds(toSeconds(latest) * static_cast<double>(rest) / static_cast<double>(read));
 }
 

@@ -28,21 +28,43 @@ class FileTimes {
   Duration mended_by_{0};  // since `begin`
 };
 
+// The lengths of packets. Where a container states none (WMV), a packet is as long as the step to it.
+class PacketLengths {
+ public:
+  // At the beginning, or after a seek.
+  void begin() noexcept { lines_.clear(); }
+  // 0 if unknown.
+  [[nodiscard]] Duration of(const Packet& packet, Duration stated);
+
+ private:
+  struct Line {
+    MediaTime last;
+    Duration step{0};
+  };
+  std::map<int, Line> lines_;
+};
+
+enum class Doubt : std::uint8_t {
+  None,
+  Damaged,   // FFmpeg has passed over bytes or parts
+  Reported,  // a part could not be opened, and the log says so
+};
+
 // What is missing within a film: FFmpeg passes over what it cannot read, such as a segment of a list.
 class FileGaps {
  public:
   // At the beginning, or after a seek.
   void begin() noexcept;
-  // Logs a gap before the packet if the packet or one just before is `broken`: elsewhere a picture may just last
-  // longer. Of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
-  void note(const Packet& packet, Duration length, bool broken, const std::string& url);
+  // A gap counts as missing if a packet near it is in doubt: elsewhere a picture may just last longer. It is logged,
+  // unless its cause was; of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
+  void note(const Packet& packet, Duration length, Doubt doubt, const std::string& url);
   // Of the stream that lacks most.
   [[nodiscard]] Duration missing() const noexcept;
 
  private:
   struct End {
     MediaTime time;
-    MediaTime broken_until;  // by a packet before
+    MediaTime doubtful_until;  // by a packet before, of any stream
   };
   std::map<int, End> ends_;  // of each stream's last packet, by decoding time
   std::map<int, Duration> missing_;
@@ -65,13 +87,14 @@ class FileEnd {
   void seek(MediaTime target) noexcept;
   // `broken`: FFmpeg has not found the whole packet. `position` in the file, in bytes; below 0 if unknown.
   void note(const Packet& packet, Duration length, bool broken, std::int64_t position) noexcept;
-  // Call after the last packet, with the container that was passed to `open`, if it has times.
-  void reach(const AVFormatContext& context) noexcept;
+  // Call after the last packet, with the container that was passed to `open`, if it has times. `doubtful`: FFmpeg
+  // warned there, and may have ended since it cannot read on.
+  void reach(const AVFormatContext& context, bool doubtful) noexcept;
   // At least; 0 until the end was reached, for a whole film, and if unknown.
   [[nodiscard]] Duration missing() const noexcept { return missing_; }
 
  private:
-  [[nodiscard]] Duration unread(const AVFormatContext& context) const noexcept;
+  [[nodiscard]] Duration unread(const AVFormatContext& context, bool unreadable) const noexcept;
 
   Duration start_{0};
   Reached reached_;

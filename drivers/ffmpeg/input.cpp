@@ -5,6 +5,7 @@
 #include <poll.h>
 
 #include <cerrno>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@
 namespace relievo::ffmpeg {
 namespace {
 
+constexpr std::int64_t kNoByte = std::numeric_limits<std::int64_t>::min();  // packets without a place are at -1
+constexpr std::int64_t kAllBytes = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
 
 // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
@@ -59,7 +62,9 @@ Result<Input::Opened> Input::open(const std::string& url) {
   url_ = url;
   opens_ = 0;
   lost_ = 0;
-  tells_lost_ = false;
+  doubtful_ = false;
+  doubtful_until_ = kNoByte;
+  opened_ = false;
   AVIOContext* file = nullptr;
   if (const auto opened = openFile(*address, file); !opened) {
     avformat_free_context(context);
@@ -67,28 +72,39 @@ Result<Input::Opened> Input::open(const std::string& url) {
   }
   context->pb = file;
   AVDictionary* options = optionsFor(*address);
-  const LibraryWords words;
+  LibraryWords words;
   const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
   av_dict_free(&options);
   if (opened < 0 && file != nullptr) closeLocalFile(file);
   if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
   const MonotonicTime arrival = watch_.now();
+  opened_ = true;
+  if (lost_ > 0) tellLost(first_lost_);
 
   FormatPtr owned(context);
   watch_.begin(kOpenPatience, late);
+  words.listenTo(*context);
   const int found = findStreams(*context);
   const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // a slow stream may be known enough
-  lost_ += words.passedOver() ? 1 : 0;
+  if (words.containerWarned()) doubtful_until_ = context->pb == nullptr ? kAllBytes : avio_tell(context->pb);
   if (found < 0 || gave_up) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
   if (isTextArt(*context)) return std::unexpected(refusal(*address, AVERROR_INVALIDDATA, {}));
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
 }
 
 int Input::readFrame(AVFormatContext& container, AVPacket& packet) {
-  const LibraryWords words;
+  LibraryWords words;
+  words.listenTo(container);
   const int got = av_read_frame(&container, &packet);
-  lost_ += words.passedOver() ? 1 : 0;
+  doubtful_ = words.containerWarned() || (got < 0 ? doubtful_ : packet.pos < doubtful_until_);
+  if (got >= 0 && doubtful_) packet.opaque = this;
   return got;
+}
+
+Doubt Input::doubtOf(const AVPacket& packet) const noexcept {
+  if (lost_ > 0) return Doubt::Reported;
+  const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
+  return broken || packet.opaque != nullptr ? Doubt::Damaged : Doubt::None;
 }
 
 // `file` stays null for sources that FFmpeg opens itself: remote ones, and names that are patterns.
@@ -110,7 +126,7 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
   const int opened = self.openAny(context, file, url, flags, options);
-  if (opened < 0 && self.tells_lost_ && !self.watch_.cancelled()) self.tellLost(url);
+  if (opened < 0 && !self.watch_.cancelled()) self.noteLost(url);
   return opened;
 }
 
@@ -122,11 +138,17 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg skips segments of a list that it cannot open.
-void Input::tellLost(const char* part) {
-  if (!isTold(++lost_)) return;
+// FFmpeg skips segments of a list that it cannot open. If it opens none, the refusal says it.
+void Input::noteLost(const char* part) {
+  ++lost_;
+  if (opened_) tellLost(part);
+  else if (lost_ == 1) first_lost_ = part;
+}
+
+void Input::tellLost(const std::string& part) const {
+  if (!isTold(lost_)) return;
   if (lost_ == 1)
-    log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part);
+    log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part.c_str());
   else log(LogLevel::Warning, "media", "%s: %u of its parts cannot be opened and are left out", url_.c_str(), lost_);
 }
 

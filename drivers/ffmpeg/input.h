@@ -2,10 +2,12 @@
 // Opens an address as a container of FFmpeg's: what it may open is bounded, and every wait is interruptible.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
 #include "drivers/ffmpeg/address.h"
+#include "drivers/ffmpeg/file_times.h"
 #include "drivers/ffmpeg/watch.h"
 #include "platform/error.h"
 #include "platform/unique_fd.h"
@@ -33,16 +35,14 @@ class Input {
   };
   // A container that was opened before stays open.
   [[nodiscard]] Result<Opened> open(const std::string& url);
-  // Call before each read. Resets the number of files and addresses that the container may still open. From now on, a
-  // file that cannot be opened is reported as a missing part of the film.
-  void beginReading() noexcept {
-    opens_ = 0;
-    tells_lost_ = true;
-  }
+  // Call before each read. Resets the number of files and addresses that the container may still open.
+  void beginReading() noexcept { opens_ = 0; }
   // As av_read_frame, of the container that was opened here.
   int readFrame(AVFormatContext& container, AVPacket& packet);
-  // Parts of the film could not be opened since it was opened.
-  [[nodiscard]] bool hasLostParts() const noexcept { return lost_ > 0; }
+  // Whether something is missing near a packet that was read here, as far as FFmpeg or a part's opening has told it.
+  [[nodiscard]] Doubt doubtOf(const AVPacket& packet) const noexcept;
+  // Whether FFmpeg has warned at the last read.
+  [[nodiscard]] bool isDoubtful() const noexcept { return doubtful_; }
   [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }
   void closePipe() noexcept { pipe_.reset(); }
 
@@ -52,7 +52,8 @@ class Input {
   static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
                          AVDictionary** options);
   int openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options);
-  void tellLost(const char* part);
+  void noteLost(const char* part);
+  void tellLost(const std::string& part) const;
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
   Watch& watch_;
@@ -61,9 +62,12 @@ class Input {
   std::string url_;
   bool reads_files_ = false;
   int opens_ = 0;
-  bool tells_lost_ = false;
-  unsigned lost_ = 0;  // parts that could not be opened while it was read
-  UniqueFd pipe_;      // outlives the container that reads from it
+  bool opened_ = false;
+  std::string first_lost_;  // while the container was opened
+  unsigned lost_ = 0;       // parts that could not be opened
+  bool doubtful_ = false;
+  std::int64_t doubtful_until_ = 0;  // the byte to which the container was read while it was opened, if it warned
+  UniqueFd pipe_;                    // outlives the container that reads from it
 };
 
 }  // namespace relievo::ffmpeg

@@ -24,7 +24,8 @@ bool has(std::string_view text, std::string_view part) noexcept {
 
 void LibraryWords::keep(void* context, int level, const char* format, va_list arguments) {
   if (words_of_thread == nullptr) return;
-  if (has(format, "Failed to open fragment")) words_of_thread->passed_over_ = true;
+  const bool of_container = context != nullptr && context == words_of_thread->container_;
+  if (of_container && level <= AV_LOG_WARNING) words_of_thread->container_warned_ = true;
   if (level > AV_LOG_ERROR) return;
   std::array<char, 256> line;
   int prefixed = 1;

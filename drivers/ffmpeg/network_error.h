@@ -8,6 +8,8 @@
 
 #include "platform/error.h"
 
+struct AVFormatContext;
+
 namespace relievo::ffmpeg {
 
 // While one lives, keeps the last error line that FFmpeg logs on this thread. FFmpeg returns the same code for a name
@@ -20,14 +22,17 @@ class LibraryWords {
   LibraryWords& operator=(const LibraryWords&) = delete;
 
   [[nodiscard]] const std::string& last() const noexcept { return last_; }
-  // FFmpeg has left out a segment of a DASH film that it could not open. It opens them itself.
-  [[nodiscard]] bool passedOver() const noexcept { return passed_over_; }
+  // From now on, warnings of the container are noted.
+  void listenTo(const AVFormatContext& container) noexcept { container_ = &container; }
+  // In whatever words: it has passed over bytes, or over a segment of a DASH film, whose opening cannot be seen here.
+  [[nodiscard]] bool containerWarned() const noexcept { return container_warned_; }
 
  private:
   static void keep(void* context, int level, const char* format, va_list arguments);
 
+  const AVFormatContext* container_ = nullptr;
   std::string last_;
-  bool passed_over_ = false;
+  bool container_warned_ = false;
 };
 
 // `code` is FFmpeg's, of opening a network source; `words` are the last that it logged.

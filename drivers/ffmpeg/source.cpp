@@ -64,14 +64,12 @@ class FfmpegSource final : public MediaSource {
     start_ = startOf(context);
     end_.open(context, start_);
     sought_ = false;
-    times_.begin();
-    gaps_.begin();
     chooseProgramme(context);
     leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
     earliest_stream_ = earliestStream(context, leading_stream_);
     context_ = std::move(opened->container);
     address_ = std::move(opened->address);
-    continuous_.begin(origin().longest_gap);
+    beginTimes();
     ahead_.clear();
     readStreamTags();
     return {};
@@ -149,7 +147,7 @@ class FfmpegSource final : public MediaSource {
       } else if (got == AVERROR(EAGAIN) && !watch_.givesUp()) {
         std::this_thread::sleep_for(kNap);
       } else if (got != AVERROR_INVALIDDATA || ++damaged_reads >= kDamagedReads) {
-        if (timed_) end_.reach(*context_);
+        if (timed_) end_.reach(*context_, input_.isDoubtful());
         return endOrError(got);
       }
     }
@@ -199,22 +197,30 @@ class FfmpegSource final : public MediaSource {
     out.pts = timeOf(packet->pts, stream);
     out.dts = timeOf(packet->dts, stream);
     if (origin().longest_gap == Duration(0)) times_.mend(out, url_);
-    const Duration length = durationFrom(packet->duration, stream.time_base);
-    noteLosses(out, length, *packet);
+    noteLosses(out, *packet);
     out.keyframe = (packet->flags & AV_PKT_FLAG_KEY) != 0;
     out.owner = std::shared_ptr<AVPacket>(std::move(packet));
     return out;
   }
 
   // By times that do not jump, as MediaSource makes them.
-  void noteLosses(Packet out, Duration length, const AVPacket& packet) {
+  void noteLosses(Packet out, const AVPacket& packet) {
+    const AVStream& stream = *context_->streams[packet.stream_index];
+    const bool is_subtitle = kindOf(stream) == StreamKind::Subtitle;
     const Duration offset = out.dts ? continuous_.offsetFor(out.stream, *out.dts) : Duration(0);
     if (out.dts) *out.dts += offset;
     if (out.pts) *out.pts += offset;
-    const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
-    const bool is_flow = address_.flows() || kindOf(*context_->streams[packet.stream_index]) == StreamKind::Subtitle;
-    if (!is_flow) gaps_.note(out, length, broken || input_.hasLostParts(), url_);
-    end_.note(out, length, broken, packet.pos);
+    const Duration stated = durationFrom(packet.duration, stream.time_base);
+    const Duration length = is_subtitle ? stated : lengths_.of(out, stated);
+    if (!address_.flows() && !is_subtitle) gaps_.note(out, length, input_.doubtOf(packet), url_);
+    end_.note(out, length, (packet.flags & AV_PKT_FLAG_CORRUPT) != 0, packet.pos);
+  }
+
+  void beginTimes() noexcept {
+    times_.begin();
+    lengths_.begin();
+    gaps_.begin();
+    continuous_.begin(origin().longest_gap);
   }
 
   std::optional<MediaTime> timeOf(std::int64_t time, const AVStream& stream) const noexcept {
@@ -227,10 +233,8 @@ class FfmpegSource final : public MediaSource {
     if (input_.isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience, lateReading(address_.way));
+    beginTimes();
     ahead_.clear();
-    times_.begin();
-    gaps_.begin();
-    continuous_.begin(origin().longest_gap);
     end_.seek(target);
     const bool to_beginning = target <= MediaTime{};
     sought_ = !to_beginning;
@@ -276,6 +280,7 @@ class FfmpegSource final : public MediaSource {
   Duration start_{0};    // the container's start time
   bool sought_ = false;  // since it was opened, and not to the beginning
   FileTimes times_;
+  PacketLengths lengths_;
   FileGaps gaps_;
   ContinuousTime continuous_;  // where a container's times may jump
   FileEnd end_;
