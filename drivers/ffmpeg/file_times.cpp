@@ -124,7 +124,8 @@ constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe"
                                OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone},
                                OwnSign{"gif", trailerGone}};
 
-constexpr Duration kDoubtful = std::chrono::milliseconds(250);     // FFmpeg's parsers are some pictures late
+constexpr Duration kDoubtful = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
+constexpr Duration kNoStill = std::chrono::seconds(1);
 constexpr Duration kUsualPicture = std::chrono::milliseconds(40);  // where its length is unknown
 
 }  // namespace
@@ -166,7 +167,7 @@ void FileGaps::begin() noexcept {
 }
 
 void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, const std::string& url) {
-  if (doubt != Doubt::None) {
+  if (doubt > Doubt::Steady) {
     for (auto& [stream, other] : ends_) other.doubtful_until = other.time + kDoubtful;
   }
   if (!packet.dts || length <= Duration(0)) return;
@@ -178,9 +179,12 @@ void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, const st
       log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be read", url.c_str(),
           toSeconds(gap), toSeconds(end));
     }
+  } else if (gap > kNoStill && doubt == Doubt::Steady && isTold(++gaps_)) {
+    log(LogLevel::Warning, "media", "%s: for %.1f s at %.1f s there are no pictures: a still, or a part is missing",
+        url.c_str(), toSeconds(gap), toSeconds(end));
   }
   end = *packet.dts + length;
-  if (doubt != Doubt::None) doubtful_until = end + kDoubtful;
+  if (doubt > Doubt::Steady) doubtful_until = end + kDoubtful;
 }
 
 Duration FileGaps::missing() const noexcept {

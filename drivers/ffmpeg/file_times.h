@@ -46,6 +46,7 @@ class PacketLengths {
 
 enum class Doubt : std::uint8_t {
   None,
+  Steady,    // no sign of a loss, but the stream's rate does not explain a gap either
   Damaged,   // FFmpeg has passed over bytes or parts
   Reported,  // a part could not be opened, and the log says so
 };
@@ -56,7 +57,8 @@ class FileGaps {
   // At the beginning, or after a seek.
   void begin() noexcept;
   // A gap counts as missing if a packet near it is in doubt: elsewhere a picture may just last longer. It is logged,
-  // unless its cause was; of many gaps, only the tenth, hundredth, .. `url` names the film in the log.
+  // unless its cause was; of many gaps, only the tenth, hundredth, .. `url` names the film in the log. A long gap in a
+  // steady stream is logged as well.
   void note(const Packet& packet, Duration length, Doubt doubt, const std::string& url);
   // Of the stream that lacks most.
   [[nodiscard]] Duration missing() const noexcept;

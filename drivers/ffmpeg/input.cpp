@@ -101,10 +101,12 @@ int Input::readFrame(AVFormatContext& container, AVPacket& packet) {
   return got;
 }
 
-Doubt Input::doubtOf(const AVPacket& packet) const noexcept {
+Doubt Input::doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept {
   if (lost_ > 0) return Doubt::Reported;
   const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
-  return broken || packet.opaque != nullptr ? Doubt::Damaged : Doubt::None;
+  if (broken || packet.opaque != nullptr) return Doubt::Damaged;
+  const bool steady = stream.avg_frame_rate.num > 0 && av_cmp_q(stream.avg_frame_rate, stream.r_frame_rate) == 0;
+  return steady && kindOf(stream) == StreamKind::Video ? Doubt::Steady : Doubt::None;
 }
 
 // `file` stays null for sources that FFmpeg opens itself: remote ones, and names that are patterns.

@@ -40,7 +40,7 @@ class Input {
   // As av_read_frame, of the container that was opened here.
   int readFrame(AVFormatContext& container, AVPacket& packet);
   // Whether something is missing near a packet that was read here, as far as FFmpeg or a part's opening has told it.
-  [[nodiscard]] Doubt doubtOf(const AVPacket& packet) const noexcept;
+  [[nodiscard]] Doubt doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept;
   // Whether FFmpeg has warned at the last read.
   [[nodiscard]] bool isDoubtful() const noexcept { return doubtful_; }
   [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }

@@ -212,7 +212,7 @@ class FfmpegSource final : public MediaSource {
     if (out.pts) *out.pts += offset;
     const Duration stated = durationFrom(packet.duration, stream.time_base);
     const Duration length = is_subtitle ? stated : lengths_.of(out, stated);
-    if (!address_.flows() && !is_subtitle) gaps_.note(out, length, input_.doubtOf(packet), url_);
+    if (!address_.flows() && !is_subtitle) gaps_.note(out, length, input_.doubtOf(packet, stream), url_);
     end_.note(out, length, (packet.flags & AV_PKT_FLAG_CORRUPT) != 0, packet.pos);
   }
 

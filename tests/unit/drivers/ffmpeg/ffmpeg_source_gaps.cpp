@@ -100,6 +100,30 @@ TEST(FfmpegSource, TellsAHoleInEveryContainer) {
   }
 }
 
+// Between two whole clusters. It may be a still, so that it is no part that is known to be missing.
+TEST(FfmpegSource, TellsALongTimeWithoutAPictureAtASteadyRate) {
+  TemporaryFolder folder;
+  const std::string make = "cd '" + folder / "" +
+                           "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=10:d=10 -c:v libx264 -g 10 "
+                           "-cluster_time_limit 1000 a.mkv";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  std::ifstream file(folder / "a.mkv", std::ios::binary);
+  std::string film{std::istreambuf_iterator<char>(file), {}};
+  const std::string cluster = "\x1f\x43\xb6\x75";
+  std::vector<std::size_t> begins;
+  for (auto at = film.find(cluster); at != std::string::npos; at = film.find(cluster, at + 1)) begins.push_back(at);
+  ASSERT_GE(begins.size(), 9U);
+  writeFile(folder / "a.mkv", film.erase(begins[4], begins[6] - begins[4]));
+  const auto source = makeFfmpegSource();
+  testing::internal::CaptureStderr();
+  ASSERT_TRUE(source->open(folder / "a.mkv").has_value());
+  EXPECT_NEAR(static_cast<double>(readAll(*source).size()), 80, 10) << "clusters of about 1 s";
+  EXPECT_EQ(source->missing(), Duration(0));
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(told, testing::EndsWith("s there are no pictures: a still, or a part is missing\n"));
+  EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
+}
+
 // Three segments of 1 s, the second of which is gone.
 TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
   TemporaryFolder folder;
