@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/pictures/folder.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <string_view>
 #include <utility>
 
+#include "drivers/pictures/endings.h"
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/odometry.h"
 #include "drivers/pictures/other_files.h"
+#include "drivers/pictures/pattern.h"
 #include "drivers/pictures/roles.h"
 #include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
@@ -39,33 +38,6 @@ struct Path {
   }
 };
 
-// "b%06d.png": the text around the number and the least number of its digits.
-struct Pattern {
-  std::string before, behind;
-  std::size_t digits = 1;
-};
-std::optional<Pattern> patternOf(const std::string& name) {
-  for (std::size_t at = name.find('%'); at != name.npos; at = name.find('%', at + 1)) {
-    std::size_t end = at + 1;
-    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0) ++end;
-    if (end == name.size() || name[end] != 'd' || end - at > 4) continue;
-    const std::string width = name.substr(at + 1, end - at - 1);
-    return Pattern{name.substr(0, at), name.substr(end + 1), width.empty() ? 1 : std::max(std::stoul(width), 1UL)};
-  }
-  return std::nullopt;
-}
-bool isPattern(const std::string& name) {
-  return mediaKindOf(name) == MediaKind::Picture && (patternOf(name) || name.find_first_of("*?") != name.npos);
-}
-
-bool matches(const Pattern& pattern, const std::string& name) {
-  const std::size_t around = pattern.before.size() + pattern.behind.size();
-  if (name.size() < around + pattern.digits) return false;
-  if (!name.starts_with(pattern.before) || !name.ends_with(pattern.behind)) return false;
-  const auto digits = std::string_view(name).substr(pattern.before.size(), name.size() - around);
-  return std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 // What is in a folder: pictures, sub-folders and the rest.
 struct Listing {
   std::vector<std::string> pictures, folders;
@@ -87,16 +59,6 @@ Result<Listing> listingOf(const std::string& folder) {
   return listing;
 }
 
-// Keeps the names with the most frequent ending; counts the others.
-std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out) {
-  std::map<std::string, std::size_t> count;
-  for (const std::string& name : names) ++count[endingOf(name)];
-  if (count.size() < 2) return names;
-  const std::string most = std::ranges::max_element(count, {}, [](const auto& entry) { return entry.second; })->first;
-  left_out += std::erase_if(names, [&](const std::string& name) { return endingOf(name) != most; });
-  return names;
-}
-
 // Leaves out pictures beside the others that their names tell to be something else ("1.pgm", "1_ab.pgm").
 std::vector<std::string> withoutOthers(std::vector<std::string> names, std::size_t& left_out) {
   const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
@@ -111,7 +73,9 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   auto& depth = by_role[Role::Depth];
   if (!std::ranges::all_of(depth, isPaintedDepth)) std::erase_if(depth, isPaintedDepth);
   if (depth.empty()) {
-    found.color = {folder, oneKind(names, found.left_out)};
+    std::vector<std::string> color = names;
+    found.depth = {folder, takeDepthOfPhotos(folder, color)};
+    found.color = {folder, oneKind(std::move(color), found.left_out)};
     return;
   }
   const auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
@@ -257,13 +221,11 @@ Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
 }
 
 Result<FoundPictures> findByPattern(const Path& path) {
-  const auto pattern = patternOf(path.name);
   FoundPictures found{.color = {path.folder, {}}};
   auto listing = listingOf(path.folder);
   if (!listing) return std::unexpected(listing.error());
   for (std::string& name : listing->pictures) {
-    const bool wanted = pattern ? matches(*pattern, name) : ::fnmatch(path.name.c_str(), name.c_str(), FNM_PERIOD) == 0;
-    if (wanted) found.color.names.push_back(std::move(name));
+    if (matches(path.name, name)) found.color.names.push_back(std::move(name));
   }
   if (found.color.names.empty()) return fail(ErrorCode::NotFound, kNoMatch);
   return found;

@@ -274,6 +274,21 @@ TEST_F(PictureFolder, PairsWithUnrelatedNamesArePhotosThatStand) {
   EXPECT_EQ(story({.url = folder_ / "q"}), "0 1:1001, 33.3333 2:1002");
 }
 
+// "1.jpg" and its depth "1.png", which no word tells apart; a mask or a smaller copy is no depth.
+TEST_F(PictureFolder, GrayOf16BitsBesideAPhotoOfItsNameIsItsDepth) {
+  const auto save = [&](const std::string& name, const char* codec, const char* format, std::uint32_t value) {
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    test::ClipTrack track{.codec = codec, .pix_fmt = format, .width = 16, .height = 16, .frames = 1};
+    track.sample = [value](int, int, int, int) { return value; };
+    test::makeClip(folder_ / name, {track});
+  };
+  for (const std::string stem : {"p/0001", "p/0002", "m/0001", "m/0002"}) save(stem + ".jpg", "mjpeg", "yuvj444p", 128);
+  save("p/0001.png", "png", "gray16be", 1001), save("p/0002.png", "png", "gray16be", 1002);
+  save("m/0001.png", "png", "gray", 255), save("m/0002.png", "png", "gray", 255);
+  EXPECT_EQ(story({.url = folder_ / "p"}), "0 128:1001, 33.3333 128:1002");
+  EXPECT_EQ(story({.url = folder_ / "m"}), "0 128:-1, 40 128:-1");
+}
+
 TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {
   std::ofstream(folder_ / "1.ppm") << "P6";
   picture("2.ppm", 2), picture("3.ppm", 3);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/pictures/endings.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "hal/media/media_names.h"
+#include "platform/files/answered_file.h"
+
+namespace relievo::pictures {
+namespace {
+
+bool isPhoto(const std::string& name) {
+  const std::string ending = endingOf(name);
+  return ending == "jpg" || ending == "jpeg";
+}
+
+// PNG (ISO/IEC 15948): the signature, then IHDR with the size, the bits of a sample, and 0 for gray.
+bool isGray16Png(const std::string& path) {
+  constexpr std::size_t kBits = 24, kColor = 25;
+  std::array<std::uint8_t, kColor + 1> head{};
+  const auto file = AnsweredFile::open(path);
+  return file && file->read(0, head).value_or(0) == head.size() && head[1] == 'P' && head[2] == 'N' && head[3] == 'G' &&
+         head[kBits] == 16 && head[kColor] == 0;
+}
+
+}  // namespace
+
+std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out) {
+  std::map<std::string, std::size_t> count;
+  for (const std::string& name : names) ++count[endingOf(name)];
+  if (count.size() < 2) return names;
+  const std::string most = std::ranges::max_element(count, {}, [](const auto& entry) { return entry.second; })->first;
+  left_out += std::erase_if(names, [&](const std::string& name) { return endingOf(name) != most; });
+  return names;
+}
+
+std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
+  const std::set<std::string> all(names.begin(), names.end());
+  for (const std::string_view ending : {"pfm", "png"}) {
+    const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
+    const auto photo = std::ranges::find_if(
+        names, [&](const std::string& name) { return isPhoto(name) && all.contains(besideOf(name)); });
+    if (photo == names.end() || (ending == "png" && !isGray16Png(folder + besideOf(*photo)))) continue;
+    const auto depth = std::ranges::partition(names, [&](const auto& name) { return endingOf(name) != ending; });
+    std::vector<std::string> taken(depth.begin(), depth.end());
+    names.erase(depth.begin(), depth.end());
+    return taken;
+  }
+  return {};
+}
+
+}  // namespace relievo::pictures

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells the pictures of a folder apart by the endings of their names.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace relievo::pictures {
+
+// Keeps the names with the most frequent ending; counts the others.
+[[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out);
+
+// Takes depth out of `names` where photos and their depth differ in the ending alone: "1.jpg" beside a gray "1.png" of
+// 16 bits, whose head is read, or "1.pfm". Empty if there is none.
+[[nodiscard]] std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names);
+
+}  // namespace relievo::pictures
