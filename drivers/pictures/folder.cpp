@@ -16,6 +16,7 @@
 #include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
+#include "platform/lower_case.h"
 #include "platform/whole_file.h"
 
 namespace relievo::pictures {
@@ -120,17 +121,18 @@ bool sortByView(const std::string& folder, const std::vector<std::string>& names
   return true;
 }
 
-// Two folders of views.
+// Two folders of views. KITTI-360's fisheyes (data_rgb) look to either side.
 bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
-  const auto stereo = stereoAmong(listing.folders);
+  std::vector<std::string> names = listing.folders;
+  std::erase_if(names, [&](const std::string& name) { return isFolder(folder + name + "/data_rgb"); });
+  const auto stereo = stereoAmong(names);
   if (!stereo || !stereo->depth.empty()) return false;
-  const auto open = [&](const std::string& name) -> PictureFiles {
-    return {folder + name + "/", oneKind(listingOf(folder + name).value_or(Listing{}).pictures, found.left_out)};
-  };
-  found.color = open(stereo->left);
-  found.depth = open(stereo->right);
-  found.views = true;
-  return !found.color.names.empty() && !found.depth.names.empty();
+  FoundPictures views{.views = true};
+  views.color = picturesIn(folder + stereo->left + "/", views);
+  views.depth = picturesIn(folder + stereo->right + "/", views);
+  if (views.color.names.empty() || views.depth.names.empty()) return false;
+  found = std::move(views);
+  return true;
 }
 
 std::optional<PictureList> readList(const std::string& path, std::size_t pictures) {
@@ -183,16 +185,19 @@ std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
 
 Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = true);
 
-// For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results").
-std::optional<FoundPictures> findBelow(const std::string& folder, const Listing& listing) {
+// For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results"),
+// or in that of the first of several cameras ("cam_0").
+std::optional<FoundPictures> findBelow(const std::string& folder, Listing listing) {
   constexpr std::size_t kMostFolders = 16;
   std::optional<FoundPictures> found;
   if (listing.folders.size() > kMostFolders) return std::nullopt;
+  std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
     auto below = findInFolder(folder + name + "/", false);
-    if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
-    if (found) return std::nullopt;
-    found = *std::move(below);
+    if (!below || below->views || below->color.names.empty() || below->depth.names.empty()) continue;
+    if (found && !lowerCase(name).starts_with("cam")) return std::nullopt;
+    if (found) found->left_out += below->color.names.size() + below->depth.names.size();
+    else found = *std::move(below);
   }
   return found;
 }
@@ -205,11 +210,12 @@ Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
   const auto listing = listingOf(folder);
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
-  const bool sorted = sortByFolder(folder, *listing, found) || sortByViewFolder(folder, *listing, found);
+  const bool sorted = sortByFolder(folder, *listing, found);
   if (sorted && !found.depth.names.empty() && !found.color.names.empty()) return found;
   if (auto below =
           goes_down && listing->pictures.empty() && listing->films == 0 ? findBelow(folder, *listing) : std::nullopt)
     return *std::move(below);
+  if (found.depth.names.empty() && sortByViewFolder(folder, *listing, found)) return found;
   if (sorted) return found;
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);

@@ -21,7 +21,7 @@ struct Layout {
 constexpr std::array<std::string_view, kMostDepths> kDepths{"disp",      "disparity",      "disp_left",
                                                             "left_disp", "disparity_left", "left_disparity",
                                                             "depth",     "depth_left",     "left_depth"};
-constexpr std::array<Layout, 8> kLayouts{{
+constexpr std::array<Layout, 12> kLayouts{{
     {"im2", "im6", {"disp2"}, "im3"},
     {"view1", "view5", {"disp1"}, "view2"},
     {"im0", "im1", {"disp0", "disp0gt", "depth0"}, "im2"},
@@ -29,6 +29,10 @@ constexpr std::array<Layout, 8> kLayouts{{
     {"left_rgb", "right_rgb", kDepths, ""},
     {"iml", "imr", {"displ", "disp", "depthl", "depth"}, ""},
     {"imgl", "imgr", {"displ", "disp", "depthl", "depth"}, ""},
+    {"cam0", "cam1", {}, "cam2"},
+    {"cam_0", "cam_1", {}, "cam_2"},
+    {"image_00", "image_01", {}, ""},
+    {"image_02", "image_03", {}, ""},
     {"image_2", "image_3", {}, ""},
 }};
 // In the order of preference, formats of floating-point numbers first.

@@ -18,6 +18,8 @@ struct StereoNames {
 //   im2, im6, disp2                  Middlebury 2001 and 2003; the other views are left out
 //   view1, view5, disp1              Middlebury 2005 and 2006, likewise
 //   left, right, disp or depth       and other words for them
+//   image_02, image_03               KITTI, else its gray image_00 and image_01
+//   cam0, cam1                       EuRoC and others, unless there is a third
 // Of two files of disparities the one with numbers is taken: a PFM rather than a PNG. nullopt if these are no two
 // views.
 [[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names);

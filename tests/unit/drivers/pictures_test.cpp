@@ -9,6 +9,7 @@
 
 #include "drivers/pictures/layouts.h"
 #include "drivers/pictures/pictures.h"
+#include "hal/media/media_names.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
@@ -214,6 +215,31 @@ TEST_F(Pictures, AFolderNamedForColourMayHoldBoth) {
   file("c/cam_0/rgb/1.png"), file("c/cam_0/depth/1.png");
   EXPECT_THAT(read(folder_ / "c").color, ElementsAre("0 c/cam_0/rgb/1.png"));
   EXPECT_THAT(read(folder_ / "c").depth, ElementsAre("0 c/cam_0/depth/1.png"));
+  file("c/cam_1/rgb/1.png"), file("c/cam_1/depth/1.png"), file("c/cam_2/rgb/1.png"), file("c/cam_2/depth/1.png");
+  EXPECT_THAT(read(folder_ / "c").color, ElementsAre("0 c/cam_0/rgb/1.png"));
+  EXPECT_THAT(read(folder_ / "c").depth, ElementsAre("0 c/cam_0/depth/1.png"));
+  EXPECT_THAT(read(folder_ / "c").notes, Contains(HasSubstr("4 other pictures are left out")));
+}
+
+// KITTI, KITTI-360, whose second pair are fisheyes, EuRoC and other rigs of two cameras.
+TEST_F(Pictures, FoldersOfTwoCamerasAreTwoViews) {
+  for (const char* name :
+       {"k/image_00/data", "k/image_01/data", "k/image_02/data", "k/image_03/data", "k360/image_00/data_rect",
+        "k360/image_01/data_rect", "k360/image_02/data_rgb", "k360/image_03/data_rgb", "e/cam0/data", "e/cam1/data",
+        "e/body", "r/cam_0", "r/cam_1", "ring/cam_0", "ring/cam_1", "ring/cam_2"}) {
+    file(std::string(name) + "/7.png");
+  }
+  const auto viewsOf = [&](const std::string& folder) {
+    const Film film = read(folder_ / folder);
+    const auto isRight = [](const StreamInfo& stream) { return stream.tags.contains(kViewTag); };
+    EXPECT_EQ(std::ranges::count_if(film.streams, isRight), folder == "ring" ? 0 : 2) << folder;
+    return film.color.at(0) + " " + (film.depth.empty() ? "" : film.depth.at(0));
+  };
+  EXPECT_EQ(viewsOf("k"), "0 k/image_02/data/7.png 0 k/image_03/data/7.png");
+  EXPECT_EQ(viewsOf("k360"), "0 k360/image_00/data_rect/7.png 0 k360/image_01/data_rect/7.png");
+  EXPECT_EQ(viewsOf("e"), "0 e/cam0/data/7.png 0 e/cam1/data/7.png");
+  EXPECT_EQ(viewsOf("r"), "0 r/cam_0/7.png 0 r/cam_1/7.png");
+  EXPECT_EQ(viewsOf("ring"), "0 ring/cam_0/7.png ");
 }
 
 TEST_F(Pictures, DepthThatIsPaintedIsTakenOnlyWhereThereIsNoOther) {
