@@ -221,6 +221,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     const bool distances = ordered && isDistances(CodeCount(*ordered));
     if (packed == SampleOrder::FloatBytes) return findKind("tartanair");
     if (packed == SampleOrder::BlueGreen) return findKind("carla");
+    if (packed == SampleOrder::Below20) return findKind("carla-near");
     return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
   }
   if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;

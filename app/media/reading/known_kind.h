@@ -21,6 +21,7 @@ enum class SampleOrder : std::uint8_t {
   RedGreen,      // of RGB in 8 bits: red is the upper byte, green the lower one
   GreenRed,      // likewise, the other way round
   BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
+  Below20,       // likewise, of codes of 20 bits: the upper 16
   EqualColors,   // of RGB of more than 8 bits: each component is the code
   Terrarium,     // of RGB in 8 bits: a height of R 256 + G + B / 256 - 32768 m
   Mapbox,        // likewise, of (R 65536 + G 256 + B) / 10 - 10000 m

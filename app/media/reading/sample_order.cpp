@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how a picture stores the bits of its codes, and puts the codes in order.
+// Finds how a gray picture stores the bits of its codes, and puts the codes in order.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <new>
 
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/sample_parts.h"
 
 namespace relievo {
 namespace {
@@ -29,76 +29,13 @@ bool isGray16(const Frame& frame) noexcept {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-bool isPackable(const Frame& frame) noexcept {
-  return frame.model == ColorModel::Rgb && frame.components[0].bits == 8;
-}
 bool isPackedOrder(SampleOrder order) noexcept {
   return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::BlueGreen ||
-         order == SampleOrder::FloatBytes || isTerrain(order);
-}
-
-std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
-  const Component& k = frame.components[part];
-  const Plane& plane = frame.planes[k.plane];
-  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+         order == SampleOrder::Below20 || order == SampleOrder::FloatBytes || isTerrain(order);
 }
 
 std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
   return partAt(frame, 0, c, r);
-}
-
-// True if the lower byte continues where the upper one changes by one: on a slope it does nearly everywhere, beside an
-// unrelated colour hardly ever.
-bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept {
-  constexpr std::uint64_t kLeast = 32;
-  constexpr int kMostStep = 64;
-  std::uint64_t changes = 0, carried = 0;
-  const auto compare = [&](int c, int r, int left, int up) {
-    const auto step = [&](std::size_t part) {
-      return static_cast<int>(partAt(frame, part, c, r)) - static_cast<int>(partAt(frame, part, c - left, r - up));
-    };
-    const int rise = step(upper);
-    if (std::abs(rise) != 1) return;
-    ++changes;
-    if (std::abs(256 * rise + step(lower)) <= kMostStep) ++carried;
-  };
-  for (int r = 0; r < frame.height; ++r) {
-    for (int c = 0; c < frame.width; ++c) {
-      if (c > 0) compare(c, r, 1, 0);
-      if (r > 0) compare(c, r, 0, 1);
-    }
-  }
-  // For unrelated bytes 3 % would; the rest of a depth's changes are steep slopes or edges.
-  return carried >= kLeast && 10 * carried >= changes;
-}
-
-// TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; metres.
-float floatAt(const Frame& frame, int c, int r) noexcept {
-  const Component& k = *frame.alpha;
-  const Plane& plane = frame.planes[k.plane];
-  const std::uint32_t top =
-      codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
-  const std::uint32_t low = partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
-  return std::bit_cast<float>(top << 24 | partAt(frame, 0, c, r) << 16 | low);
-}
-
-// True if nearly all samples are distances that differ little from their neighbours. In a picture with an opaque or a
-// transparent alpha none is.
-bool holdsFloats(const Frame& frame) noexcept {
-  constexpr float kLeast = 0.01F, kMost = 1e5F, kAlike = 0.1F;
-  if (!frame.alpha || frame.alpha->bits != 8) return false;
-  std::uint64_t sound = 0, alike = 0, samples = 0;
-  for (int r = 0; r < frame.height; ++r) {
-    float left = 0;
-    for (int c = 0; c < frame.width; ++c, ++samples) {
-      const float here = floatAt(frame, c, r);
-      if (!(here >= kLeast && here <= kMost)) continue;  // NaN as well
-      ++sound;
-      if (std::abs(here - left) <= kAlike * here) ++alike;
-      left = here;
-    }
-  }
-  return 10 * sound >= 9 * samples && 10 * alike >= 8 * samples;
 }
 
 std::uint32_t terrainAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
@@ -107,30 +44,6 @@ std::uint32_t terrainAt(const Frame& frame, int c, int r, SampleOrder order) noe
   if (number == 0) return 0;
   const double metres = order == SampleOrder::Terrarium ? number / 256.0 - 32768 : number / 10.0 - 10000;
   return static_cast<std::uint32_t>(std::clamp(std::round((metres - kLowest) * kCodesAMetre), 1.0, double{kTop}));
-}
-
-// The upper byte of a height changes every 256 m (Terrarium: 128 at the sea) or 6554 m (Mapbox: 1 at the sea), the next
-// one from sample to sample. No picture of shades or hues has so few values of red beside so many of green.
-SampleOrder terrainOrder(const Frame& frame) noexcept {
-  constexpr std::uint32_t kDeepest = 85, kHighest = 163, kHighestOfMapbox = 2;
-  constexpr int kMostRed = 24, kLeastGreen = 4;
-  std::array<bool, 256> red{}, green{};
-  std::uint64_t samples = 0, low = 0, terrarium = 0, mapbox = 0;
-  for (int r = 0; r < frame.height; ++r) {
-    for (int c = 0; c < frame.width; ++c) {
-      const std::uint32_t top = partAt(frame, 0, c, r) & 0xff, next = partAt(frame, 1, c, r) & 0xff;
-      if (top == 0 && next == 0 && partAt(frame, 2, c, r) == 0) continue;  // no data
-      ++samples;
-      red[top] = green[next] = true;
-      low += top == 0 ? 1 : 0;
-      terrarium += top >= kDeepest && top <= kHighest ? 1 : 0;
-      mapbox += top <= kHighestOfMapbox ? 1 : 0;
-    }
-  }
-  const auto reds = std::count(red.begin(), red.end(), true), greens = std::count(green.begin(), green.end(), true);
-  if (reds > kMostRed || greens < kLeastGreen) return SampleOrder::AsStored;
-  if (mapbox == samples && 2 * low < samples) return carries(frame, 1, 2) ? SampleOrder::Mapbox : SampleOrder::AsStored;
-  return terrarium == samples && (reds <= 2 || carries(frame, 0, 1)) ? SampleOrder::Terrarium : SampleOrder::AsStored;
 }
 
 // Distances that 16 bits cannot hold are the sky: 65535.
@@ -154,6 +67,7 @@ std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noe
   if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
   if (order == SampleOrder::HalfFloat) return codeOf(halfOf(grayAt(frame, c, r)));
   if (isTerrain(order)) return terrainAt(frame, c, r, order);
+  if (order == SampleOrder::Below20) return std::min(numberAt(frame, c, r) >> 4, kTop);
   if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
   const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);
   if (order == SampleOrder::BlueGreen) return partAt(frame, 2, c, r) << 8 | green;
@@ -196,24 +110,6 @@ bool hasConfidence(const Frame& depth) {
     }
   }
   return as_stored > kClearly * below;
-}
-
-SampleOrder packedOrder(const Frame& depth) {
-  if (!isPackable(depth)) return SampleOrder::AsStored;
-  if (holdsFloats(depth)) return SampleOrder::FloatBytes;
-  if (const SampleOrder terrain = terrainOrder(depth); terrain != SampleOrder::AsStored) return terrain;
-  std::uint64_t other_blue = 0;
-  const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
-  for (int r = 0; r < depth.height; ++r) {
-    for (int c = 0; c < depth.width; ++c) other_blue += partAt(depth, 2, c, r) != blue ? 1 : 0;
-  }
-  const std::uint64_t samples = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
-  if (100 * other_blue > samples) {  // of 24 bits the upper 16, whichever end is the upper one
-    if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
-    return carries(depth, 2, 1) ? SampleOrder::BlueGreen : SampleOrder::AsStored;
-  }
-  if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
-  return carries(depth, 1, 0) ? SampleOrder::GreenRed : SampleOrder::AsStored;
 }
 
 bool hasEqualColors(const Frame& depth) noexcept {

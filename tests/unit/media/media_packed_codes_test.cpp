@@ -71,6 +71,20 @@ TEST(PackedCodes, CarlasThreeBytesAreAKilometre) {
   expectScene(film, 10, {.mm = 16});  // a code is 15.26 mm
 }
 
+// Of a room the blue byte is below 3, and red, the lowest byte, changes everywhere: that is no hue.
+TEST(PackedCodes, CarlasThreeBytesOfARoomAreReadFinely) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {pictures([](int k, int c, int r) {
+             const double mm = distanceMm(c, r);
+             const auto code = mm == 0 ? 0xffffffu : static_cast<std::uint32_t>(mm / 1e6 * 0xffffff);
+             return code >> (8 * k) & 0xff;
+           })});
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
+  expectScene(film, 1, {.mm = 1});  // a code is .95 mm
+  const std::string line = plainLine(film.info.reading, film.info.calibration.calibration);
+  EXPECT_NE(line.find("62 m"), std::string::npos) << line;
+}
+
 // Tiles of terrain by their makers' formulas: a slope from 260 m below the sea to 1150 m above it.
 struct Tile {
   const char* kind;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of a sample, and the numbers whose bytes they are.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/media/frame.h"
+
+namespace relievo {
+
+inline bool isPackable(const Frame& frame) noexcept {
+  return frame.model == ColorModel::Rgb && frame.components[0].bits == 8;
+}
+
+inline std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
+  const Component& k = frame.components[part];
+  const Plane& plane = frame.planes[k.plane];
+  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+}
+
+inline std::uint32_t numberAt(const Frame& frame, int c, int r) noexcept {
+  return partAt(frame, 2, c, r) << 16 | partAt(frame, 1, c, r) << 8 | partAt(frame, 0, c, r);
+}
+
+// TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; metres.
+inline float floatAt(const Frame& frame, int c, int r) noexcept {
+  const Component& k = *frame.alpha;
+  const Plane& plane = frame.planes[k.plane];
+  const std::uint32_t top =
+      codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+  const std::uint32_t low = partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
+  return std::bit_cast<float>(top << 24 | partAt(frame, 0, c, r) << 16 | low);
+}
+
+}  // namespace relievo
