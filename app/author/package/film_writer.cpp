@@ -27,11 +27,12 @@ void setTag(AVDictionary** tags, const std::string& key, const std::string& valu
   av_dict_set(tags, key.c_str(), value.c_str(), 0);
 }
 
-// One track of the film. Pictures are copied for its thread, which encodes them.
+// One track of the film. Its thread encodes pictures that are its own.
 struct Track {
   using Line = WorkLine<Result<void>>;
   struct Picture {
-    std::vector<std::uint8_t> samples;  // of all planes
+    ColorPicture420 color;
+    std::vector<std::uint8_t> depth;  // samples of one byte or two
     VideoEncoder::Planes planes{};
     MediaTime time;
     bool key = false;
@@ -42,7 +43,8 @@ struct Track {
   Picture& next() { return pictures[added % pictures.size()]; }
   // Hands that picture over.
   Result<void> add(MediaTime time, bool key) {
-    Picture& picture = pictures[added++ % pictures.size()];
+    Picture& picture = next();
+    ++added;
     picture.time = time;
     picture.key = key;
     return line.add([this, &picture] { return encode(picture); });
@@ -197,26 +199,23 @@ Result<void> FilmWriter::Impl::openMaterial(const FilmFormat& format) {
   return {};
 }
 
-void copy(const ColorPicture420& from, Track::Picture& to) {
-  to.samples.resize(from.y.size() + from.u.size() + from.v.size());
-  std::uint8_t* out = to.samples.data();
-  std::size_t plane = 0;
-  for (const auto* const samples : {&from.y, &from.u, &from.v}) {
-    to.planes[plane++] = out;
-    out = std::copy(samples->begin(), samples->end(), out);
-  }
+Result<void> addColor(const ColorPicture420& picture, Track& track, MediaTime time, bool key) {
+  Track::Picture& own = track.next();
+  if (&picture != &own.color) own.color = picture;
+  own.planes = {own.color.y.data(), own.color.u.data(), own.color.v.data()};
+  return track.add(time, key);
 }
 
 void FilmWriter::Impl::copy(const DepthPicture& from, Track::Picture& to) {
   const std::size_t count = from.codes.size();
-  to.samples.resize(count * (coding.bits == 8 ? 1 : 2));
+  to.depth.resize(count * (coding.bits == 8 ? 1 : 2));
   if (coding.bits == 8) {
-    std::transform(from.codes.begin(), from.codes.end(), to.samples.begin(),
+    std::transform(from.codes.begin(), from.codes.end(), to.depth.begin(),
                    [](std::uint16_t code) { return static_cast<std::uint8_t>(code); });
   } else {
-    std::memcpy(to.samples.data(), from.codes.data(), to.samples.size());
+    std::memcpy(to.depth.data(), from.codes.data(), to.depth.size());
   }
-  to.planes = {to.samples.data(), nullptr, nullptr};
+  to.planes = {to.depth.data(), nullptr, nullptr};
   if (!coding.flat_chroma) return;
   // The middle value, in one byte or two. It never changes, so that the encoder's thread may read it.
   if (chroma.empty()) {
@@ -237,12 +236,15 @@ Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, 
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
 }
 
+ColorPicture420& FilmWriter::nextColor() noexcept {
+  return impl_->color.next().color;
+}
+
 Result<void> FilmWriter::writeColor(const ColorPicture420& picture, MediaTime time, bool key) {
   if (impl_->kept) {
     if (auto written = impl_->kept->writeUntil(time); !written) return written;
   }
-  copy(picture, impl_->color.next());
-  return impl_->color.add(time, key);
+  return addColor(picture, impl_->color, time, key);
 }
 
 Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time, bool key) {
@@ -251,8 +253,7 @@ Result<void> FilmWriter::writeDepth(const DepthPicture& picture, MediaTime time,
 }
 
 Result<void> FilmWriter::writeMaterial(const ColorPicture420& picture, MediaTime time, bool key) {
-  copy(picture, impl_->material.next());
-  return impl_->material.add(time, key);
+  return addColor(picture, impl_->material, time, key);
 }
 
 Result<FilmTotals> FilmWriter::finish() {

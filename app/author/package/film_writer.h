@@ -69,6 +69,9 @@ class FilmWriter {
                                                                   std::unique_ptr<KeptTracks> kept = nullptr);
   ~FilmWriter();
 
+  // The memory of the next colour picture. One that is made there is not copied by `writeColor`, and may be read until
+  // the next one is made.
+  [[nodiscard]] ColorPicture420& nextColor() noexcept;
   // `key` makes it a key frame; apart from the first picture there are no others.
   [[nodiscard]] Result<void> writeColor(const ColorPicture420& picture, MediaTime time, bool key);
   [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);

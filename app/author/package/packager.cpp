@@ -84,11 +84,11 @@ Outcome<void> Packager::planMaterial(const FramePair& pair) {
   return {};
 }
 
-Outcome<void> Packager::writeMaterial(const FramePair& pair, bool key, bool begins_shot) {
+Outcome<void> Packager::writeMaterial(const FramePair& pair, const ColorPicture420& color, bool key, bool begins_shot) {
   if (format_.material_width == 0) return {};
   const ColorPicture420* picture = &kept_material_;
   if (material_) {
-    const auto made = material_->at(color_, pair.color.pts, begins_shot);
+    const auto made = material_->at(color, pair.color.pts, begins_shot);
     if (!made) return failOn(output_.paintings.front().path, made.error());
     picture = *made;
   } else {
@@ -127,11 +127,12 @@ Outcome<void> Packager::write(const FramePair& pair) {
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts >= *last_depth_ + kLeastStep);
   const bool begins_shot = depth_is_new && beginsShot(pair.depth);
   const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), begins_shot);
-  if (auto made = toColor420(color, color_); !made) return failOn("colour", made.error());
-  if (auto written = writer_->writeColor(color_, color.pts, key); !written)
+  ColorPicture420& packed = writer_->nextColor();
+  if (auto made = toColor420(color, packed); !made) return failOn("colour", made.error());
+  if (auto written = writer_->writeColor(packed, color.pts, key); !written)
     return failOn(output_.path, written.error());
   if (!depth_is_new) return {};
-  if (auto written = writeMaterial(pair, key, begins_shot); !written) return written;
+  if (auto written = writeMaterial(pair, packed, key, begins_shot); !written) return written;
 
   last_depth_ = pair.depth.pts;
   const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
@@ -140,7 +141,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
   }
   if (!output_.preview.empty()) {
     const std::lock_guard lock(preview_mutex_);
-    preview_.before(color_, depth, sourceCalibration(), expectedFrames(info_));
+    preview_.before(packed, depth, sourceCalibration(), expectedFrames(info_));
   }
   return depth_line_.add([this, depth, key] { return takeDepth(depth, key); });
 }

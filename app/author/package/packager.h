@@ -45,7 +45,8 @@ class Packager {
   [[nodiscard]] Outcome<void> writeDepth(const Frame& depth);
   [[nodiscard]] Outcome<void> writeEnhanced();
   [[nodiscard]] Outcome<void> planMaterial(const FramePair& pair);
-  [[nodiscard]] Outcome<void> writeMaterial(const FramePair& pair, bool key, bool begins_shot);
+  [[nodiscard]] Outcome<void> writeMaterial(const FramePair& pair, const ColorPicture420& color, bool key,
+                                            bool begins_shot);
   [[nodiscard]] std::unique_ptr<KeptTracks> keptTracks() const;
   [[nodiscard]] const DepthCalibration& sourceCalibration() const { return info_.calibration.calibration; }
   static constexpr std::size_t kRecent = 3;
@@ -68,7 +69,6 @@ class Packager {
   ShotFinder shots_;
   std::optional<MediaTime> last_color_, last_depth_;
   std::uint64_t not_later_ = 0;  // colour pictures whose time is not after that of the one before
-  ColorPicture420 color_;
   std::mutex preview_mutex_;
   Preview preview_;
   std::optional<MaterialTrack> material_;  // made from a map
