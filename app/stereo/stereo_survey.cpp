@@ -161,7 +161,7 @@ void StereoSurvey::endShot() {
 
 // By matching small pictures over the widest range.
 void StereoSurvey::measureRange(ShotPlan& shot) {
-  constexpr double kLeastFound = 0.1, kOutliers = 0.002, kSpare = 0.05;
+  constexpr double kLeastFound = 0.1, kOutliers = 0.005, kSpare = 0.05;
   const int cols = std::min(looked_.front().left.cols, kReducedCols), widest = std::max(cols / kWidest, 1);
   const double scale = static_cast<double>(plan_.cols) / cols;
   const double kept = static_cast<double>(plan_.cols) / looked_.front().left.cols;
@@ -170,7 +170,7 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
   for (Looked& looked : looked_) {
     if (shot.is_balanced) balance(looked.right, shot.exposure);
     if (shot.is_aligned) looked.right = aligned(looked.right, scaledBy(shot.alignment, 1 / kept));
-    const DisparityMap map = matchFromBoth(reduced(looked.left, cols), reduced(looked.right, cols), {-widest, widest});
+    const DisparityMap& map = quick_.match(reduced(looked.left, cols), reduced(looked.right, cols), {-widest, widest});
     count.add(map);
     all += map.size();
   }
