@@ -62,6 +62,7 @@ TEST_F(PlayerScenario, PlayAndPauseKeysSayWhatTheyMeanWhateverTheState) {
   bench_.press(2.0, KEY_PLAYCD);
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused playing ended idle");
+  EXPECT_NEAR(bench_.report.wall_s, 4.5, 0.02) << "paused from 1.5 to 2.0 s";
 }
 
 TEST_F(PlayerScenario, AfterEachSeekThePictureAndTheSurfaceAreOfTheSameTime) {

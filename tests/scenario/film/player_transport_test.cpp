@@ -172,6 +172,7 @@ TEST_F(PlayerTransport, AStepShowsTheNextPictureAndStands) {
   playsWell();
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused idle");
   EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 5, 1);
+  EXPECT_EQ(bench_.report.frames_dropped, 0u) << "a step passes over no picture";
   EXPECT_GT(bench_.report.haptic.contact_ticks, 6000u);
   EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
   EXPECT_EQ(bench_.faults("depth delayed"), 0u);

@@ -52,6 +52,18 @@ TEST(SubtitleWords, AreShownAtTheirTimesAlone) {
   EXPECT_GT(inkAt(words, 1.5), 50);
 }
 
+TEST(SubtitleWords, AreShownLaterByTheirDelay) {
+  FONT_OR_SKIP();
+  SubtitleWords words;
+  words.add(said("hello", 1, 2));
+  words.changeDelay(seconds(3));
+  words.changeDelay(-seconds(1));
+  EXPECT_EQ(words.delay(), seconds(2));
+  EXPECT_EQ(inkAt(words, 2.99), 0);
+  EXPECT_GT(inkAt(words, 3), 50);
+  EXPECT_EQ(inkAt(words, 4), 0);
+}
+
 TEST(SubtitleWords, ALineThatComesAgainAfterASeekIsShownOnce) {
   FONT_OR_SKIP();
   SubtitleWords words;
