@@ -43,7 +43,7 @@ struct Path {
 struct Listing {
   std::vector<std::string> pictures, folders;
   std::size_t films = 0;
-  const char* way = nullptr;  // to convert the first of the rest that can be
+  const char* way = nullptr;  // to convert the first of the rest that can be, or the last that says depth
 };
 Result<Listing> listingOf(const std::string& folder) {
   const auto entries = listFolder(folder.empty() ? "." : folder);
@@ -51,7 +51,8 @@ Result<Listing> listingOf(const std::string& folder) {
   Listing listing;
   for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
-    if (listing.way == nullptr) listing.way = wayToConvert(name);
+    const char* const way = wayToConvert(name);
+    if (way != nullptr && (listing.way == nullptr || roleOf(name) == Role::Depth)) listing.way = way;
     const MediaKind kind = mediaKindOf(name);
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);
     else if (kind == MediaKind::Film) ++listing.films;

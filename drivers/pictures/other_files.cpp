@@ -23,6 +23,12 @@ constexpr const char* kHdf5 =
 constexpr const char* kMatlab =
     "this folder holds MATLAB files; convert them: python3 -c 'import glob, numpy, scipy.io; [numpy.save(f[:-4], "
     "scipy.io.loadmat(f)[\"NAME\"]) for f in glob.glob(\"FOLDER/*.mat\")]', NAME being the variable with the depth";
+// From its camera's centre (1024 x 768 pixels, 886.81 of focal length) to its plane, as the data set's README has it.
+constexpr const char* kHypersim =
+    "this folder holds Hypersim's distances from the camera's centre; convert them to depth: python3 -c 'import glob, "
+    "h5py, numpy; y, x = numpy.mgrid[-383.5:384, -511.5:512] / 886.81; [numpy.save(f[:-5], "
+    "h5py.File(f)[\"dataset\"][:] "
+    "/ numpy.sqrt(1 + x * x + y * y)) for f in glob.glob(\"FOLDER/*.depth_meters.hdf5\")]'";
 struct Way {
   const char *ending, *line;
 };
@@ -32,6 +38,7 @@ constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, 
 }  // namespace
 
 const char* wayToConvert(std::string_view name) {
+  if (name.ends_with(".depth_meters.hdf5")) return kHypersim;
   const std::string ending = endingOf(name);
   for (const Way& way : kWays) {
     if (ending == way.ending) return way.line;

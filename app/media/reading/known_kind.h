@@ -27,6 +27,8 @@ enum class SampleOrder : std::uint8_t {
   Mapbox,        // likewise, of (R 65536 + G 256 + B) / 10 - 10000 m
   FloatBytes,    // of RGBA in 8 bits: a float in metres, its bytes in blue, green, red and alpha; 250 codes a metre
   HalfFloat,     // a half float in metres in 16 bits; 250 codes a metre
+  AlongRay,      // a distance from the camera's centre in 16 bits, not from its plane: of InteriorNet's camera
+  AlongWideRay,  // likewise, of SceneNet RGB-D's
   Low13,         // Android's DEPTH16: three bits of confidence above
   Upper13        // Kinect SDK 1: three bits of a player's number below
 };

@@ -142,6 +142,12 @@ bool isNiceSlam(const fs::path& path, const fs::path& folder) {
          isRegularFile(folder.parent_path() / "traj.txt");
 }
 
+// SceneNet RGB-D: "photo/25.jpg", "depth/25.png" and "instance/25.png".
+bool isSceneNet(const fs::path& folder) {
+  const fs::path above = folder.parent_path();
+  return folder.filename() == "depth" && isFolder(above / "photo") && isFolder(above / "instance");
+}
+
 RecordingPlace named(const char* kind, const char* sign) {
   return {findKind(kind), CalibrationOrigin::Name, {}, print("the name has %s", sign)};
 }
@@ -173,6 +179,9 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
       {"office_room_traj", "icl"},
       {"icl-nuim", "icl"},
       {"icl_nuim", "icl"},
+      {"interiornet", "interiornet"},
+      {"/depth0/data/", "interiornet"},
+      {"scenenet", "scenenet"},
       {"rgbd_dataset_freiburg", "tum"},
       {"aligned_depth", "mm"},  // RealSense's; OpenLORIS has TUM's layout
       {".geometric.png", "co3d"},
@@ -195,6 +204,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
     if (words.find(sign.word) != std::string::npos) return named(sign.kind, sign.word);
   }
   if (isNiceSlam(path, folder)) return named("replica", "NICE-SLAM's form results/depth000000 beside traj.txt");
+  if (isSceneNet(folder)) return named("scenenet", "SceneNet's form depth beside photo and instance");
   if (isTum(path, folder)) return {findKind("tum"), CalibrationOrigin::Name, {}, "names and lists as TUM's"};
   return {};
 }

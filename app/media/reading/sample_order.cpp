@@ -63,9 +63,21 @@ float halfOf(std::uint32_t bits) noexcept {
   return std::ldexp(significand, std::max(1, static_cast<int>(exponent)) - kBias - kMantissaBits);
 }
 
+// The depth at `code` along the ray of a pinhole camera with the picture's centre as its principal point; its focal
+// lengths are shares of the picture's width and height.
+std::uint32_t depthAlongRay(const Frame& frame, int c, int r, std::uint32_t code, double focal_x, double focal_y) {
+  if (code == kTop) return code;  // a hole
+  const double x = (c - 0.5 * frame.width) / (focal_x * frame.width);
+  const double y = (r - 0.5 * frame.height) / (focal_y * frame.height);
+  return static_cast<std::uint32_t>(std::lround(code / std::sqrt(1 + x * x + y * y)));
+}
+
 std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
   if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
   if (order == SampleOrder::HalfFloat) return codeOf(halfOf(grayAt(frame, c, r)));
+  // 600 of 640 x 480 pixels; 60 x 45 degrees.
+  if (order == SampleOrder::AlongRay) return depthAlongRay(frame, c, r, grayAt(frame, c, r), 0.9375, 1.25);
+  if (order == SampleOrder::AlongWideRay) return depthAlongRay(frame, c, r, grayAt(frame, c, r), 0.866025, 1.207107);
   if (isTerrain(order)) return terrainAt(frame, c, r, order);
   if (order == SampleOrder::Below20) return std::min(numberAt(frame, c, r) >> 4, kTop);
   if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/pictures/lists.h"
+#include "drivers/pictures/other_files.h"
 
 namespace relievo {
 namespace {
@@ -98,6 +99,12 @@ TEST(PictureLists, OrderCommentsAndWhatIsNone) {
 }
 
 // At 25 pictures a second the greater number would be 8.9e16 s after the other: 64 bits of ns hold 9.2e9 s.
+// Its HDF5 files hold distances along rays, as its README says.
+TEST(OtherFiles, HypersimsDistancesBecomeDepth) {
+  EXPECT_THAT(pictures::wayToConvert("frame.0000.depth_meters.hdf5"), testing::HasSubstr("/ numpy.sqrt(1 + x * x"));
+  EXPECT_THAT(pictures::wayToConvert("frame.0000.position.hdf5"), testing::Not(testing::HasSubstr("sqrt")));
+}
+
 TEST(PictureNames, GreatNumbersCountNoPictures) {
   EXPECT_EQ(valuesOf({"9000000000.png", "1.png"}).kind, NameKind::Numbers);
   const auto great = valuesOf({"2222222222222222222.png", "1.png"});

@@ -61,6 +61,32 @@ TEST(OddCodes, SixteenBitsThatAreNamedDisparityAreNearWhereHigh) {
   }
 }
 
+// InteriorNet and SceneNet RGB-D store the way to the camera's centre, which is longer in the corners.
+TEST(OddCodes, DistancesAlongRaysAreReadAsDepth) {
+  struct Camera {
+    const char *color, *depth, *more;
+    double focal_x, focal_y;  // pixels
+  };
+  constexpr double kWide = 1.7320508, kHigh = 2.4142136;  // 1 / tan of half of 60 and of 45 degrees
+  for (const Camera& camera : {Camera{"cam0/data/7.png", "depth0/data/7.png", "label0/data", 600 * .25, 600 * .225},
+                               Camera{"photo/0.png", "depth/0.png", "instance", kWide * 80, kHigh * 54}}) {
+    TemporaryFolder folder;
+    for (const char* const name : {camera.color, camera.depth})
+      std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
+    std::filesystem::create_directories(folder / camera.more);
+    makeClip(folder / camera.color,
+             {track("png", "rgb24", [](int k, int c, int r, int) { return rounded(40 * k + c + r / 2.0); })});
+    makeClip(folder / camera.depth, {track("png", "gray16be", [&](int, int c, int r, int) {
+               const double x = (c - 80) / camera.focal_x, y = (r - 54) / camera.focal_y;
+               return rounded(distanceMm(c, r) * std::sqrt(1 + x * x + y * y));
+             })});
+    const OpenedFilm film = openFilm({.url = folder / "."});
+    expectScene(film, 1, {.mm = 1.1});
+    EXPECT_NE(plainLine(film.info.reading, film.info.calibration.calibration).find("camera's centre"),
+              std::string::npos);
+  }
+}
+
 // MPI Sintel: a disparity of 4 R + G / 64 + B / 16384 pixels.
 TEST(OddCodes, SintelsDisparitiesAreReadFromTheBytesOfRgb) {
   TemporaryFolder folder;
