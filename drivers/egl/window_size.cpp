@@ -36,11 +36,12 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
     SDL_GetWindowPosition(window_, &before_.x, &before_.y);
     SDL_GetWindowSize(window_, &before_.w, &before_.h);
   }
-  int left = 0, top = 0;
-  SDL_GetWindowPosition(window_, &left, &top);
+  int x = 0, y = 0;
+  SDL_PumpEvents();
+  SDL_GetGlobalMouseState(&x, &y);
   SDL_SetWindowFullscreen(window_, fill ? Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP} : 0U);
-  // SDL has moved the mouse to its old place in the window: moves it back to its place on the screen.
-  if (SDL_GetMouseFocus() == window_) SDL_WarpMouseGlobal(left + mouse_x_, top + mouse_y_);
+  // SDL has moved the mouse to where it last heard of it in the window: moves it back to its place on the screen.
+  if (SDL_GetMouseFocus() == window_) SDL_WarpMouseGlobal(x, y);
   const bool unanswered = fill_asked_.has_value();  // SDL may have a size that the window never got
   fill_asked_ = fill ? std::optional(clock_.now()) : std::nullopt;
   if (!fill && unanswered) leaveByHand();

@@ -97,8 +97,9 @@ TEST_F(WindowDisplay, FillsTheScreenAndGivesItBack) {
 TEST_F(WindowDisplay, TheMouseStaysWhereItIsWhileTheWindowFillsTheScreen) {
   const std::array<int, 2> there{place_.x + 150, place_.y + 90};
   display_->setViews({.views = {{.half_width_mm = 100, .half_height_mm = 60}}});
-  screen_->moveMouse(there[0], there[1]);
-  ASSERT_TRUE(until([&] { return pointsAt(50.5, -30.5); }));
+  screen_->moveMouse(there[0], there[1] - 50);
+  ASSERT_TRUE(until([&] { return pointsAt(50.5, 19.5); }));
+  screen_->moveMouse(there[0], there[1]);  // nobody has heard of that yet
   {
     const std::jthread manager([&] {
       for (int tries = 0; screen_->takeFullScreenWish() != 1 && tries < 5000; ++tries) std::this_thread::sleep_for(1ms);
@@ -108,6 +109,9 @@ TEST_F(WindowDisplay, TheMouseStaysWhereItIsWhileTheWindowFillsTheScreen) {
   }
   EXPECT_TRUE(until([&] { return screen_->place(window_)->width == XScreen::kWidth; }));
   EXPECT_EQ(screen_->mouse(), there);
+  const double right = (there[0] + 0.5) / XScreen::kWidth - 0.5, up = 0.5 - (there[1] + 0.5) / XScreen::kHeight;
+  EXPECT_TRUE(until([&] { return pointsAt(200 * right, 120 * up); }))
+      << mouse().ray->screen_mm.x << " " << mouse().ray->screen_mm.y;
   display_.reset();
   EXPECT_EQ(screen_->takeFullScreenWish(), 0) << "not left to the next test";
 }
