@@ -2,7 +2,6 @@
 // The list of scenarios.
 #include "app/lab/scenario/scenarios.h"
 
-#include <algorithm>
 #include <array>
 
 #include "app/depth_window/touch_plan.h"
@@ -34,11 +33,13 @@ constexpr std::array<Scenario, 25> kScenarios{{
     {"packet-loss", "blocks of the depth are wrong, now and then", scenario::packetLoss},
     {"energy-loop", "closed paths on a still scene: what they give", scenario::energyLoop},
     {"device-glitch", "the encoders jump, exchanges fail", scenario::deviceGlitch},
-    {"flicker", "each frame is scaled and shifted at random, as by a depth estimator", scenario::flicker, true},
-    {"dropout", "holes of 4 mm open and close at a resting finger", scenario::dropout, true},
-    {"pass-before", "a hand passes before the dome that a finger rests on", scenario::passBefore, true},
-    {"coarse-steps", "a slow stroke up a shallow slope in 6 bits", scenario::coarseSteps, true},
-    {"camera-move", "the camera pans and zooms, at a frame rate that changes", scenario::cameraMove, true},
+    // The figures and limits of these were written down before any method was run on them. Those above were written
+    // beside `relievo`, and made harder until a method of the literature failed.
+    {"flicker", "each frame is scaled and shifted at random, as by a depth estimator", scenario::flicker},
+    {"dropout", "holes of 4 mm open and close at a resting finger", scenario::dropout},
+    {"pass-before", "a hand passes before the dome that a finger rests on", scenario::passBefore},
+    {"coarse-steps", "a slow stroke up a shallow slope in 6 bits", scenario::coarseSteps},
+    {"camera-move", "the camera pans and zooms, at a frame rate that changes", scenario::cameraMove},
 }};
 
 }  // namespace
@@ -68,12 +69,6 @@ Challenger challengerMadeOf(const Material& material) {
 
 std::span<const Scenario> scenarios() {
   return kScenarios;
-}
-
-const Scenario* findScenario(std::string_view name) {
-  const auto* const found =
-      std::find_if(kScenarios.begin(), kScenarios.end(), [&](const Scenario& s) { return name == s.name; });
-  return found == kScenarios.end() ? nullptr : found;
 }
 
 }  // namespace relievo

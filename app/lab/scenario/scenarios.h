@@ -30,14 +30,10 @@ struct Scenario {
   const char* name;
   const char* about;
   Verdict (*judge)(const Challenger& challenger, bool quick);
-  // Figures and limits were written down before any method was run on it. The others were written beside `relievo`, and
-  // made harder until a method of the literature failed.
-  bool written_first = false;
 };
 
 // In the order of the map.
 [[nodiscard]] std::span<const Scenario> scenarios();
-[[nodiscard]] const Scenario* findScenario(std::string_view name);
 
 namespace scenario {
 
@@ -65,7 +61,7 @@ Verdict packetLoss(const Challenger& challenger, bool quick);
 Verdict stiffWall(const Challenger& challenger, bool quick);
 Verdict jitter(const Challenger& challenger, bool quick);
 Verdict deviceGlitch(const Challenger& challenger, bool quick);
-// What ordinary recordings do; written first.
+// What ordinary recordings do: written down before any method was run on it.
 Verdict flicker(const Challenger& challenger, bool quick);
 Verdict dropout(const Challenger& challenger, bool quick);
 Verdict passBefore(const Challenger& challenger, bool quick);

@@ -239,9 +239,8 @@ TEST(BulletProxy, OnAPlaneIsTheSpringAlongTheNormal) {
 }
 
 TEST(Scenarios, SmoothingEveryFrameMendsNoise) {
-  const Scenario* noise = findScenario("noise");
-  EXPECT_FALSE(noise->judge(challengerNamed("god-object"), true).pass);
-  EXPECT_TRUE(noise->judge(challengerNamed("god-object-smoothed"), true).pass);
+  EXPECT_FALSE(scenario::noise(challengerNamed("god-object"), true).pass);
+  EXPECT_TRUE(scenario::noise(challengerNamed("god-object-smoothed"), true).pass);
 }
 
 }  // namespace
