@@ -115,7 +115,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
     return;
   }
   auto found = findPacking(look);
-  if (!found && color.codec == "gif") found = findMixedPacking(look);
+  if (!found && color.codec == "gif") found = findPacking(meansOf(look));
   if (!found) {
     lookForViews(look);
     const PictureLook seen = lookAt(look);

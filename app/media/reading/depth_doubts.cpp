@@ -82,7 +82,7 @@ std::string doubtColor(const Frame& depth, const DepthCalibration& calibration, 
   if (calibration.code != DepthCode::Luma || depth.model == ColorModel::Gray) return "";
   const PictureLook look = lookAt(depth);
   const double colored = 1 - look.gray;
-  if (colored <= kColored || 1 - lookAtMeans(depth).gray <= kColored) return "";
+  if (colored <= kColored || 1 - lookAt(meansOf(depth)).gray <= kColored) return "";
   if (color != nullptr && lookAt(*color).gray >= kGray) {
     return print(
         "%.0f %% of the depth is coloured and the colour is gray: they look exchanged; give the other as --depth",
@@ -140,7 +140,7 @@ double aspectOf(const Frame& frame) {
   return frame.width * frame.sample_aspect / frame.height;
 }
 
-// The box for a colour that is as wide as the depth, 160 mm in its longer side.
+// A --box of this aspect ratio, 160 mm on its longer side: it gives a squeezed colour the shape of its depth.
 std::string boxOf(double aspect) {
   constexpr double kLong = 160;
   return print("%.0fx%.0fx40", std::min(kLong, kLong * aspect), std::min(kLong, kLong / aspect));

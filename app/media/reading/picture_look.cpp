@@ -81,34 +81,6 @@ bool isRedDepth(const PictureLook& half, const PictureLook& other) noexcept {
   return isRedAlone(half) && other.red <= kPhotoVivid && half.spread >= kLeastSpread;
 }
 
-// A quarter of the size, each sample the mean of sixteen.
-Frame meansOf(const Frame& picture) {
-  constexpr int kAcrossMean = 4, kParts = 3;
-  Frame means;
-  means.width = picture.width / kAcrossMean;
-  means.height = picture.height / kAcrossMean;
-  means.model = ColorModel::Rgb;
-  means.range = ColorRange::Full;
-  means.plane_count = 1;
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>();
-  for (int i = 0; i < means.width * means.height; ++i) {
-    Color sum;
-    for (int k = 0; k < kAcrossMean * kAcrossMean; ++k) {
-      const int c = kAcrossMean * (i % means.width) + k % kAcrossMean;
-      const int r = kAcrossMean * (i / means.width) + k / kAcrossMean;
-      const Color color = colorAt(picture, c, r);
-      sum = {sum.red + color.red, sum.green + color.green, sum.blue + color.blue};
-    }
-    for (const double part : {sum.red, sum.green, sum.blue})
-      bytes->push_back(static_cast<std::uint8_t>(std::lround(255 * part / (kAcrossMean * kAcrossMean))));
-  }
-  for (std::uint8_t part = 0; part < kParts; ++part)
-    means.components[part] = {.offset_bytes = part, .step_bytes = kParts};
-  means.planes[0] = {bytes->data(), std::ptrdiff_t{kParts} * means.width};
-  means.owner = std::move(bytes);
-  return means;
-}
-
 // True if `picture`, and not the half beside it, is depth. `breaks`: the whole picture has a break between the halves.
 std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, bool breaks, Packing packing,
                                   const char* where) {
@@ -179,8 +151,31 @@ PictureLook lookAt(const Frame& picture) noexcept {
   return look;
 }
 
-PictureLook lookAtMeans(const Frame& picture) {
-  return lookAt(meansOf(picture));
+Frame meansOf(const Frame& picture) {
+  constexpr int kAcrossMean = 4, kParts = 3;
+  Frame means;
+  means.width = picture.width / kAcrossMean;
+  means.height = picture.height / kAcrossMean;
+  means.model = ColorModel::Rgb;
+  means.range = ColorRange::Full;
+  means.plane_count = 1;
+  auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+  for (int i = 0; i < means.width * means.height; ++i) {
+    Color sum;
+    for (int k = 0; k < kAcrossMean * kAcrossMean; ++k) {
+      const int c = kAcrossMean * (i % means.width) + k % kAcrossMean;
+      const int r = kAcrossMean * (i / means.width) + k / kAcrossMean;
+      const Color color = colorAt(picture, c, r);
+      sum = {sum.red + color.red, sum.green + color.green, sum.blue + color.blue};
+    }
+    for (const double part : {sum.red, sum.green, sum.blue})
+      bytes->push_back(static_cast<std::uint8_t>(std::lround(255 * part / (kAcrossMean * kAcrossMean))));
+  }
+  for (std::uint8_t part = 0; part < kParts; ++part)
+    means.components[part] = {.offset_bytes = part, .step_bytes = kParts};
+  means.planes[0] = {bytes->data(), std::ptrdiff_t{kParts} * means.width};
+  means.owner = std::move(bytes);
+  return means;
 }
 
 bool isHue(const PictureLook& look) noexcept {
@@ -273,10 +268,6 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
     if (auto is = found(halves->first, halves->second, breaks, way.first, way.first_where)) return is;
   }
   return std::nullopt;
-}
-
-std::optional<FoundPacking> findMixedPacking(const Frame& picture) {
-  return findPacking(meansOf(picture));
 }
 
 }  // namespace relievo

@@ -29,8 +29,9 @@ struct PictureLook {
 // Any thread.
 [[nodiscard]] PictureLook lookAt(const Frame& picture) noexcept;
 
-// Likewise, of the means of 4 x 4 samples: colours that a small palette mixes are what they are mixed to.
-[[nodiscard]] PictureLook lookAtMeans(const Frame& picture);
+// The picture at a quarter of its size, each sample the mean of sixteen: colours that a small palette mixes become what
+// they are mixed to.
+[[nodiscard]] Frame meansOf(const Frame& picture);
 
 // True if nearly every lit sample has a pure colour: depth coded as a hue, or through a colour map.
 [[nodiscard]] bool isHue(const PictureLook& look) noexcept;
@@ -65,7 +66,5 @@ struct FoundPacking {
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
 // hues. Nullopt if the halves do not differ that clearly.
 [[nodiscard]] std::optional<FoundPacking> findPacking(const Frame& picture);
-// The same for a picture of a small palette, whose shades are mixed of several colours.
-[[nodiscard]] std::optional<FoundPacking> findMixedPacking(const Frame& picture);
 
 }  // namespace relievo
