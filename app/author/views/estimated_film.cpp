@@ -12,7 +12,8 @@
 namespace relievo {
 namespace {
 
-constexpr Error kHasDepth{ErrorCode::InvalidArgument, 0, "has depth of its own; leave --depth-from out"};
+constexpr Error kHasDepth{ErrorCode::InvalidArgument, 0,
+                          "has depth, in it or in a file beside it, which relievo probe names; leave --depth-from out"};
 constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"};
 constexpr Error kTooSmall{ErrorCode::Unsupported, 0, "its pictures are too small to guess depth from"};
 constexpr int kLeastSide = 16;

@@ -119,7 +119,7 @@ TEST_F(AuthorOneView, ADriftingFlickeringLateEstimatorMakesASteadyFilm) {
   std::filesystem::rename(folder_ / "out.mkv", folder_ / "has-depth.mkv");
   const auto again = make(kMock, "has-depth.mkv");
   ASSERT_FALSE(again.has_value());
-  EXPECT_THAT(again.error().error.message, HasSubstr("has depth of its own"));
+  EXPECT_THAT(again.error().error.message, HasSubstr("has depth, in it or in a file beside it"));
 }
 
 TEST_F(AuthorOneView, RefusesInOneLineAndLeavesNoFilm) {
