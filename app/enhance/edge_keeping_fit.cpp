@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLines = 16;  // a cache line of samples
 
-// Where a picture's lines begin, and the distance of their samples. Columns are processed side by side, rows in a row.
+// The place of a sample in the picture's memory, from its line and its number in it. Lines are rows or columns.
 struct Layout {
   int lines = 0, length = 0, cols = 0;
   bool columns = false;

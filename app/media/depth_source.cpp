@@ -35,8 +35,8 @@ Result<void> DepthSource::open(const std::string& url) {
   facts_.stream = *findDepthTrack(source);
   facts_.tags = source.tags();
   facts_.notes = source.notes();
-  tried_again_ = source.remote() && backends_.clock != nullptr;
-  if (tried_again_ && backends_.own_threads) thread_ = std::thread([this] { threadMain(); });
+  reopens_ = source.remote() && backends_.clock != nullptr;
+  if (reopens_ && backends_.own_threads) thread_ = std::thread([this] { threadMain(); });
   return {};
 }
 
@@ -85,7 +85,7 @@ Result<DepthSource::Given> DepthSource::nextHere() {
   std::unique_lock lock(mutex_);
   if (loss_) findAgain(lock);
   if (!loss_) readOne(lock);
-  if (loss_ && (!tried_again_ || loss_->code == ErrorCode::Cancelled)) {
+  if (loss_ && (!reopens_ || loss_->code == ErrorCode::Cancelled)) {
     return std::unexpected(*std::exchange(loss_, std::nullopt));
   }
   if (queue_.empty()) return Given{.session = session_, .ended = ended_, .away = !ended_};
@@ -122,7 +122,7 @@ void DepthSource::interrupt() noexcept {
 
 std::optional<Error> DepthSource::loss() const {
   const std::scoped_lock lock(mutex_);
-  return tried_again_ ? loss_ : std::nullopt;
+  return reopens_ ? loss_ : std::nullopt;
 }
 
 DepthSource::Counters DepthSource::counters() const {
@@ -177,7 +177,7 @@ void DepthSource::readOne(std::unique_lock<std::mutex>& lock) {
 }
 
 void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
-  if (!tried_again_ || backends_.clock->now() < back_off_.next()) return;
+  if (!reopens_ || backends_.clock->now() < back_off_.next()) return;
   before_ = counters_;
   const MediaTime target = goes_on_at_;
   const Duration key_step = seek_.key_step;
@@ -193,7 +193,7 @@ void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
 
 void DepthSource::lose(const Error& error) {
   loss_ = error;
-  if (tried_again_) back_off_.begin(backends_.clock->now());
+  if (reopens_) back_off_.begin(backends_.clock->now());
   ready_.notify_all();
 }
 

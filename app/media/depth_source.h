@@ -93,8 +93,8 @@ class DepthSource {
     std::map<std::string, std::string> tags;
     std::vector<std::string> notes;
   };
-  Facts facts_;               // from `open` on
-  bool tried_again_ = false;  // whether a lost source is reopened
+  Facts facts_;           // from `open` on
+  bool reopens_ = false;  // a lost source
 
   // Used only by the side that reads: the thread if there is one.
   std::size_t track_ = 0;

@@ -66,7 +66,7 @@ struct HeldMaterial {
 // of the force.
 [[nodiscard]] HeldMaterial heldBy(const Material& material, double usual_n_per_mm, double most_n_per_mm, double most_n);
 
-// The same for a material track: the values of its full codes on a device, and the bounds at each place.
+// What a device can hold of a material track: the values that full codes stand for, and the bounds at each place.
 struct HeldScale {
   std::optional<double> stiffness_n_per_mm;
   std::optional<Friction> friction;

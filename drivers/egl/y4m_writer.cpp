@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Pictures come with some jitter. After a repetition the next picture is half a period early instead of half a period
-// late, which is well below the limit for dropping it.
+// In periods: how late a picture may be before the last one is repeated, and how early before it is dropped. A picture
+// that jitter makes late and the file then repeats leaves the next one half a period early: it is kept.
 constexpr double kLatePeriods = 0.5;
 constexpr double kEarlyPeriods = 1.0;
 

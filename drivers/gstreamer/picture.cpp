@@ -125,7 +125,7 @@ void addDmaBufs(Frame& frame, const GstVideoFrame& mapped) noexcept {
   }
 }
 
-// The visible part, if the element leaves cutting to its reader.
+// The visible part, if the element leaves cropping to its reader.
 Frame visiblePart(const Frame& frame, GstBuffer& buffer) noexcept {
   const GstVideoCropMeta* const cut = gst_buffer_get_video_crop_meta(&buffer);
   if (cut == nullptr) return frame;

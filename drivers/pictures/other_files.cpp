@@ -18,8 +18,8 @@ constexpr const char* kArchives =
     "this folder holds archives of arrays; convert them: python3 -c 'import glob, numpy; [numpy.save(f[:-4], "
     "numpy.load(f)[\"depth\"]) for f in glob.glob(\"FOLDER/*.npz\")]', depth being the array's name";
 constexpr const char* kHdf5 =
-    "this folder holds HDF5 files; convert them: python3 -c 'import glob, h5py, numpy; [numpy.save(f, "
-    "next(iter(h5py.File(f).values()))) for f in glob.glob(\"FOLDER/*5\")]', or name their dataset";
+    "this folder holds HDF5 files; convert the first dataset of each: python3 -c 'import glob, h5py, numpy; "
+    "[numpy.save(f, next(iter(h5py.File(f).values()))) for f in glob.glob(\"FOLDER/*5\")]'";
 constexpr const char* kMatlab =
     "this folder holds MATLAB files; convert them: python3 -c 'import glob, numpy, scipy.io; [numpy.save(f[:-4], "
     "scipy.io.loadmat(f)[\"NAME\"]) for f in glob.glob(\"FOLDER/*.mat\")]', NAME being the variable with the depth";

@@ -21,7 +21,7 @@ class HandPath {
     glm::dvec3 position_mm{0};
   };
 
-  // A built-in motion, without end; for `reach` see moveHand.
+  // A built-in motion, endless; for `reach` see moveHand.
   explicit HandPath(HandMotion motion = HandMotion::Stroking, double reach = 1) noexcept
       : motion_(motion), reach_(reach) {}
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks through the first files of the folder.
+// Compares the misspelt name with those of the first files in its folder.
 #include "app/player/setup/near_file.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ double eyesOf(const StereoSettings& stereo) noexcept {
   return std::abs(stereo.strength * stereo.eye_distance_mm);
 }
 
-// Something of a height or lower, as it appears in the screen plane from midway between the eyes.
+// A part of the relief: where it appears in the screen plane, seen from midway between the eyes, and its height.
 struct Seen {
   double left = std::numeric_limits<double>::infinity(), right = kFarthest;
   double bottom = std::numeric_limits<double>::infinity(), top = kFarthest;

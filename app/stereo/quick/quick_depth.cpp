@@ -68,7 +68,7 @@ bool QuickDepth::cutsTo(const ViewPicture& left) {
   return cuts_.begins(left.cols, left.rows, [&](int x, int y) { return static_cast<float>(*left.pixel(x, y)); });
 }
 
-// By the shot's first picture: first the turn, then the vertical shift, which a turned view does not have.
+// Measured on the shot's first picture. The turn comes first: rows of a turned view have no common vertical shift.
 void QuickDepth::level(const Frame& right, ViewSize size) {
   lower_ = 0;
   turned_ = 0;

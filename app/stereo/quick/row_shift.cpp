@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-constexpr int kReachOf = 20;                              // a part of the rows: the most that is looked for
+constexpr int kReachOf = 20;                              // shifts of up to rows / kReachOf are tried
 constexpr double kAlike = 0.7;                            // correlation of the rows at the shift that is taken,
 constexpr double kPlainly = 0.05;                         // by which it is more than that without a shift
 constexpr double kLeastShift = 0.6;                       // rows

@@ -25,8 +25,8 @@ struct StereoCamera {
 // size, whatever the pictures' size, less the number in `dmin_file`, if there is one.
 [[nodiscard]] StereoCamera stereoCameraOf2006(const std::filesystem::path& dmin_file);
 
-// The range of the codes in use and its distances. Codes that stand for no floats are pixels, or 1/256 pixel if whole
-// pixels would exceed the camera's largest disparity.
+// The range of the codes in use and its distances. Codes that were not made from floats are pixels, or 1/256 pixel if
+// whole pixels would exceed the camera's largest disparity.
 [[nodiscard]] DepthReading readDisparities(const Frame& depth, const CodeCount& count, const StereoCamera& camera);
 
 }  // namespace relievo
