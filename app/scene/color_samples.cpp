@@ -174,6 +174,19 @@ YuvColor ColorSamples::interpolatedAt(int c, int r, int cols, int rows) const RE
 }
 
 bool ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block, YuvColor& mean) const RELIEVO_RT {
+  const auto &across = block.across, &down = block.down;
+  const int c = c0 + across.first, r = r0 + down.first;
+  const int past_c = c + (across.count - 1) * across.step, past_r = r + (down.count - 1) * down.step;
+  const int chroma_c = c >> shift_x_, chroma_r = r >> shift_y_;
+  if (past_c >> shift_x_ == chroma_c && past_r >> shift_y_ == chroma_r) {  // all share one chroma sample
+    float luma = 0;
+    for (int at_r = r; at_r <= past_r; at_r += down.step) {
+      for (int at_c = c; at_c <= past_c; at_c += across.step) luma += codeAt(0, at_c, at_r);
+    }
+    const auto count = static_cast<float>(across.count * down.count);
+    mean = colorOf(luma / count, codeAt(1, chroma_c, chroma_r), codeAt(2, chroma_c, chroma_r));
+    return true;
+  }
   return words_ ? meanOf<true>(c0, r0, block, mean) : meanOf<false>(c0, r0, block, mean);
 }
 
