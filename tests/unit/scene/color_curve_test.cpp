@@ -191,8 +191,8 @@ TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
     const Frame frame = film.frame();
     const auto field = HeightField::make(frame, kHue, kUnit).value();
     for (const auto& [size, most] : {std::pair(2, 8), {3, 8}, {4, 8}, {5, 8}, {6, 8}, {7, 8}, {12, 4}}) {
-      for (int begin = 0; begin + size <= 24; ++begin) {
-        const int c = across ? begin : 3, r = across ? 3 : begin;
+      for (int k = 0; k < 2 * (25 - size); ++k) {
+        const int begin = k / 2, other = 2 + k % 2, c = across ? begin : other, r = across ? other : begin;
         const double middle = kBegin + kRise * (begin + (size - 1) / 2.0);
         EXPECT_NEAR(field.meanHeight(c, r, {size, size, most}), middle, size % 2 == 0 ? 0.001 : 0.002)
             << size << ' ' << begin << (across ? " across" : " down");
