@@ -10,6 +10,7 @@
 #include "app/author/package/packager.h"
 #include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
+#include "app/media/pairs/long_wait.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 
@@ -48,7 +49,7 @@ class FilmSupply {
       views_ = std::move(*surveyed);
     }
     const SourceOptions& told = views_ ? views_->source() : source;
-    if (auto opened = reader_.open(told); !opened) return failOn(reader_.failedThing(), opened.error());
+    if (auto opened = openTelling(reader_, told); !opened) return failOn(reader_.failedThing(), opened.error());
     const FilmInfo& info = reader_.info();
     if (output.from_one_view) {
       auto estimated = EstimatedFilm::of(source, info, *output.from_one_view, stop);

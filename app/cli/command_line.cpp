@@ -5,6 +5,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/cli/options.h"
@@ -109,11 +110,13 @@ const CLI::App* commandIn(const CLI::App& program, std::span<const char* const> 
   return command;
 }
 
-// In "--report --loop", "--loop" is not meant as a file's name, though CLI11 would take it as one.
+// In "--report --loop", "--loop" is not meant as a file's name, though CLI11 would take it as one; nor is "" in
+// --report "$FILE" where no FILE was set.
 const CLI::Option* withoutValue(const CLI::App& command, std::span<const char* const> words) {
   const std::vector<std::string> names = optionsOf(command);
   for (std::size_t i = 1; i < words.size(); ++i) {
-    if (std::ranges::find(names, words[i]) == names.end()) continue;
+    const std::string_view word(words[i]);
+    if (!word.empty() && std::ranges::find(names, word) == names.end()) continue;
     const CLI::Option* const option = command.get_option_no_throw(words[i - 1]);
     if (option != nullptr && option->nonpositional() && !isFlag(*option)) return option;
   }

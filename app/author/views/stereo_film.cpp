@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/media/pairs/long_wait.h"
 #include "app/media/reading/stereo/stereo_pair.h"
 #include "app/stereo/stereo_survey.h"
 #include "platform/print.h"
@@ -25,7 +26,7 @@ bool canBeReadAgain(const std::string& url) {
 // The user states that the film has two views, so halves that may be views are taken as views.
 Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backends& backends) {
   PairReader reader(backends);
-  if (auto opened = reader.open(source); !opened) return failOn(reader.failedThing(), opened.error());
+  if (auto opened = openTelling(reader, source); !opened) return failOn(reader.failedThing(), opened.error());
   const Packing packing = reader.info().packing;
   if (hasTwoViews(packing)) return source;
   if (source.packing != Packing::Auto || reader.info().has_depth) return failOn(source.url, kNotTwoViews);

@@ -4,16 +4,12 @@
 
 #include <utility>
 
+#include "app/media/pairs/long_wait.h"
 #include "app/player/film/film_changes.h"
 #include "platform/log.h"
 #include "platform/print.h"
 
 namespace relievo {
-namespace {
-
-constexpr Duration kLongOpening = std::chrono::seconds(5);
-
-}  // namespace
 
 void FilmNotes::begin(const SourceOptions& source) {
   url_ = source.url;
@@ -24,12 +20,9 @@ void FilmNotes::begin(const SourceOptions& source) {
 
 void FilmNotes::waits(MonotonicTime now) {
   if (!waits_since_) waits_since_ = now;
-  if (wait_told_ || now - *waits_since_ <= kLongOpening) return;
+  if (wait_told_ || now - *waits_since_ <= kLongWait) return;
   wait_told_ = true;
-  const std::string& depth = depth_url_;
-  const std::string what =
-      depth.empty() ? print("\"%s\"", url_.c_str()) : print("\"%s\" or \"%s\"", url_.c_str(), depth.c_str());
-  log(LogLevel::Warning, "play", "waiting for %s (up to %.0f s)", what.c_str(), toSeconds(FilmFeed::kPatience));
+  tellWait("play", url_, depth_url_);
 }
 
 void FilmNotes::opened(const FilmInfo& info) {

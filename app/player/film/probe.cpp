@@ -8,6 +8,7 @@
 
 #include "app/depth_window/shots.h"
 #include "app/media/film_folder.h"
+#include "app/media/pairs/long_wait.h"
 #include "app/player/film/film_changes.h"
 #include "app/player/report.h"
 #include "app/scene/height_field.h"
@@ -109,7 +110,7 @@ FrameRate colorRate(const ProbeResult& r) {
 
 Outcome<void> lookAtFilm(const SourceOptions& options, const PairReader::Backends& backends, ProbeResult& result) {
   PairReader reader(backends);
-  if (auto opened = reader.open(options); !opened) {
+  if (auto opened = openTelling(reader, options); !opened) {
     return failOn(reader.failedThing().empty() ? options.url : reader.failedThing(), opened.error());
   }
   result.film = reader.info();

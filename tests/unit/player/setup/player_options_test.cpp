@@ -185,6 +185,7 @@ TEST(Options, EachThatNeedsAValueSaysSoInTheProjectsWords) {
   }
   EXPECT_GT(options, 20u);
   expectRefused({"play", "film.mkv", "--report", "--loop"}, "--report: its value is missing; write --report FILE");
+  expectRefused({"play", "film.mkv", "--report", ""}, "--report: its value is missing; write --report FILE");
   expectRefused({"play", "film.mkv", "--osd=maybe"}, "--osd: takes no value");
   expectRefused({"play", "film.mkv", "--size", "640x360", "--size", "64x36"}, "--size: was given more than once");
 }
