@@ -8,6 +8,7 @@
 
 #include "app/player/browse/shelf_view.h"
 #include "app/player/film/resume.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -161,16 +162,18 @@ void Browser::draw() {
 }
 
 std::string Browser::nothingThere() const {
+  const char* const drop = config_.takes_drops ? ", or drop a film here" : "";
   for (const std::string& place : config_.folders) {
     const std::error_code failure = finder_.failureOf(place);
     if (failure == std::errc::no_such_file_or_directory) {
-      return "There is no folder " + place + ": make it and put films in it, or name another (--films)";
+      return print("There is no folder %s: make it and put films in it, or name another (--films)%s", place.c_str(),
+                   drop);
     }
     if (failure == std::errc::not_a_directory) return place + " is not a folder: name one (--films)";
     if (failure) return "The folder " + place + " cannot be read: " + failure.message();
   }
   const std::string folder = config_.folders.empty() ? "" : "put films in " + config_.folders.front() + " or ";
-  return "No films yet: " + folder + "plug in a USB stick";
+  return "No films yet: " + folder + "plug in a USB stick" + drop;
 }
 
 }  // namespace relievo

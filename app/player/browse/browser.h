@@ -22,6 +22,7 @@ using LeftFilms = std::vector<std::pair<std::string, double>>;
 struct BrowserConfig {
   std::vector<std::string> folders;                     // of films
   std::vector<std::string> stick_roots = stickRoots();  // below these a mount is a stick
+  bool takes_drops = false;                             // a film that is dropped on the list is played
 };
 
 // The player's thread; no call waits.

@@ -126,7 +126,8 @@ std::string remoteLabel(std::uint16_t code) {
 }
 
 std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool touches) {
-  if (in_list) return {{"Click", "play that film"}, {"Wheel", "up and down the list"}};
+  const std::pair<std::string, std::string> drop{"Drop a film here", "play it"};
+  if (in_list) return {{"Click", "play that film"}, {"Wheel", "up and down the list"}, drop};
   std::vector<std::pair<std::string, std::string>> rows;
   if (touches) {
     rows = {{"Hold the mouse button", "touch the film there"}, {"Wheel", "the finger away from you, or nearer"}};
@@ -135,6 +136,7 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
   rows.emplace_back("Click or drag on the bar", "to that time");
   rows.emplace_back("Double click", "full screen on or off");
   rows.emplace_back("Right click", "pause or continue");
+  rows.push_back(drop);
   return rows;
 }
 

@@ -94,7 +94,7 @@ void settleBrowser(PlayOptions& play) {
   const bool seen = play.display.plain("window") || play.display.word == "kms";
   if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
   if (play.films.empty()) play.films.push_back(usualFilms());
-  play.player.browser = BrowserConfig{.folders = play.films};
+  play.player.browser = BrowserConfig{.folders = play.films, .takes_drops = play.display.plain("window")};
   // One size for the list and all films.
   if (no_film) play.player.display.fits_desktop = std::exchange(play.player.display.film_size, false);
 }

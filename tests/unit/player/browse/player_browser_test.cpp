@@ -191,6 +191,17 @@ TEST(BrowserAlone, SaysWhatToDoWithoutFilms) {
             "There is no folder /absent/films: make it and put films in it, or name another (--films)");
 }
 
+TEST_F(PlayerWithAList, AnEmptyListInAWindowOffersToDropAFilm) {
+  const std::string empty = folder_ / "empty";
+  std::filesystem::create_directory(empty);
+  for (const bool window : {false, true}) {
+    Browser browser({.folders = {empty}, .stick_roots = {}, .takes_drops = window}, {}, {}, false);
+    browser.open({}, MonotonicTime{});
+    EXPECT_EQ(browser.view().message, "No films yet: put films in " + empty + " or plug in a USB stick" +
+                                          (window ? ", or drop a film here" : ""));
+  }
+}
+
 TEST_F(PlayerWithAList, FilmsThatWereLeftComeFirst) {
   Browser browser(*bench_.config.browser, {}, {}, false);
   browser.open({{videos() + "/gone.mkv", 3.0}, {videos() + "/b.mkv", 2.5}, {"https://example.org/c.mkv", 60.0}},
