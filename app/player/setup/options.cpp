@@ -57,11 +57,15 @@ std::vector<const char*> withCommand(const CLI::App& program, int argc, const ch
   return words;
 }
 
-// A misspelt command would be taken as a film.
-Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& word) {
+// A misspelt command would be taken as a film. `after`: the word after this one.
+Outcome<void> refuseMisspeltCommand(const CLI::App& program, const std::string& word, const std::string& after) {
   std::vector<std::string> commands;
   for (const CLI::App* each : program.get_subcommands([](const CLI::App*) { return true; })) {
     commands.push_back(each->get_name());
+  }
+  const bool known = after.empty() || after.front() == '-' || std::ranges::find(commands, after) != commands.end();
+  if (word == "help" && !known) {
+    return failOn("help " + after, {ErrorCode::InvalidArgument, 0, "there is no such command; see relievo --help"});
   }
   const std::string near = nearestWord(word, commands);
   if (near.empty() || near == word || word.find_first_of("./:") != std::string::npos) return {};
@@ -103,7 +107,8 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
 
   const auto words = withCommand(program, argc, argv);
   const std::string first = argc > 1 ? argv[1] : "";
-  if (auto spelt = refuseMisspeltCommand(program, first); !spelt) return std::unexpected(tell(spelt.error()));
+  if (auto spelt = refuseMisspeltCommand(program, first, argc > 2 ? argv[2] : ""); !spelt)
+    return std::unexpected(tell(spelt.error()));
   if (auto parsed = parseCommandLine(program, static_cast<int>(words.size()), words.data()); !parsed) {
     return std::unexpected(parsed.error());
   }

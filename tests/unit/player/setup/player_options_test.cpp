@@ -33,6 +33,7 @@ TEST(Options, HelpAndVersionAreAnsweredEverywhere) {
   EXPECT_EQ(parse({"help", "play"}).out, parse({"play", "--help"}).out);
   EXPECT_EQ(parse({"play", "help"}).out, parse({"play", "--help"}).out);
   EXPECT_EQ(parse({"help", "devices"}).out, parse({"devices", "--help"}).out);
+  expectRefused({"help", "keys"}, "help keys: there is no such command; see relievo --help");
   const std::string version = parse({"--version"}).out;
   EXPECT_THAT(version, StartsWith("relievo "));
   for (const std::vector<const char*>& words : {std::vector<const char*>{"-v"},
