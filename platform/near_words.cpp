@@ -25,6 +25,18 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return above.back();
 }
 
+namespace {
+
+// Of a word that was broken off, as `--vol`; empty if it has under three letters, or several begin so.
+std::string onlyWordThatBegins(const std::string& small, std::span<const std::string> words) {
+  const auto begins = [&](const std::string& word) { return inSmallLetters(word).starts_with(small); };
+  const std::size_t letters = small.size() - std::min(small.size(), small.find_first_not_of('-'));
+  if (letters < 3 || std::ranges::count_if(words, begins) != 1) return "";
+  return *std::ranges::find_if(words, begins);
+}
+
+}  // namespace
+
 std::string nearestWord(std::string_view wanted, std::span<const std::string> words) {
   const std::string small = inSmallLetters(wanted);
   std::size_t least = leastDifference(wanted);
@@ -35,7 +47,7 @@ std::string nearestWord(std::string_view wanted, std::span<const std::string> wo
     least = distance;
     nearest = word;
   }
-  return nearest;
+  return nearest.empty() ? onlyWordThatBegins(small, words) : nearest;
 }
 
 std::string inSmallLetters(std::string_view text) {

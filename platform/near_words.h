@@ -15,7 +15,7 @@ namespace relievo {
 [[nodiscard]] constexpr std::size_t leastDifference(std::string_view wanted) noexcept {
   return wanted.size() / 3 + 1;
 }
-// The nearest of `words`, without regard to case; empty if none is near.
+// The nearest of `words`, without regard to case, or the only one that begins so; empty if there is none.
 [[nodiscard]] std::string nearestWord(std::string_view wanted, std::span<const std::string> words);
 // A to Z in small letters.
 [[nodiscard]] std::string inSmallLetters(std::string_view text);

@@ -28,5 +28,13 @@ TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
   EXPECT_EQ(inSmallLetters("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
 }
 
+TEST(NearWords, FindTheOneThatWasBrokenOff) {
+  const std::vector<std::string> words{"--volume", "--depth", "--depth-code", "--depth-from"};
+  EXPECT_EQ(nearestWord("--Vol", words), "--volume");
+  EXPECT_EQ(nearestWord("--dep", words), "") << "several begin so";
+  EXPECT_EQ(nearestWord("--vo", words), "") << "that is little";
+  EXPECT_EQ(nearestWord("--", words), "");
+}
+
 }  // namespace
 }  // namespace relievo
