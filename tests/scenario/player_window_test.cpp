@@ -145,10 +145,12 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
   std::this_thread::sleep_for(300ms);
   screen_->tap("Escape");
   EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] < 60 && poster(); }));
+  ASSERT_TRUE(screen_->drop(window_, folder_ / "film.mkv"));
+  EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] > 100; })) << "dropped on the list";
   screen_->tap("q");
   EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
-  EXPECT_EQ(report()["states"],
-            (json{"boot", "idle", "browsing", "opening", "buffering", "playing", "idle", "browsing", "idle"}));
+  EXPECT_EQ(report()["states"], (json{"boot", "idle", "browsing", "opening", "buffering", "playing", "idle", "browsing",
+                                      "opening", "buffering", "playing", "idle"}));
   ::unsetenv("XDG_STATE_HOME");
 }
 
