@@ -203,6 +203,15 @@ TEST_F(KnownAhead, AHugeRiseIsMetInEqualSteps) {
   EXPECT_NEAR(play(40, 0, wall).most_up, rise - kInFrontPx, 1e-3) << "nothing known";
 }
 
+// 34 px at once as well, but the words appear only three pictures before.
+TEST_F(KnownAhead, WordsThatAppearShortlyBeforeAHugeRiseAppearNearIt) {
+  const auto moved =
+      play(20, ReliefAhead::kMost, [](int k, double) { return k < 3 ? std::uint8_t{0} : std::uint8_t{255}; });
+  EXPECT_LE(moved.most_up, WordsPlace::kStep + 1e-6);
+  EXPECT_GE(moved.nearest_gap, -1e-9);
+  EXPECT_EQ(moved.lifted, 0u);
+}
+
 // What comes after a cut does not count: the words are placed anew there.
 TEST_F(KnownAhead, WhatComesBehindACutDoesNotCount) {
   WordsPlace words;
