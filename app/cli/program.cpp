@@ -41,7 +41,7 @@ void fillClosedStreams() noexcept {
 }
 
 // A pipe or socket whose other end is closed: `relievo --help | head` has read enough.
-bool hasReaderLeft() noexcept {
+bool isReaderGone() noexcept {
   pollfd out{.fd = STDOUT_FILENO, .events = 0, .revents = 0};
   return ::poll(&out, 1, 0) == 1 && (out.revents & (POLLERR | POLLHUP)) != 0;
 }
@@ -49,7 +49,7 @@ bool hasReaderLeft() noexcept {
 // Output may still be buffered, so flush it and check for errors.
 int afterOutput(int exit_code) {
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (written || exit_code != kExitDone || hasReaderLeft()) return exit_code;
+  if (written || exit_code != kExitDone || isReaderGone()) return exit_code;
   return tell({"standard output", {ErrorCode::Io, 0, "it cannot be written; is the disk full?"}});
 }
 
