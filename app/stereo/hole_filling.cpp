@@ -30,7 +30,8 @@ class PlaneFit {
     xx_ += x * x, xy_ += x * y, yy_ += y * y, xd_ += x * d, yd_ += y * d;
   }
   [[nodiscard]] Slope slope() const {
-    constexpr float kLeast = 20, kFlat = 1;  // points; and a little that draws to level planes
+    constexpr float kLeast = 20;  // points
+    constexpr float kFlat = 1;    // px^2: points that lie closer together than this give a level plane
     if (n_ < kLeast) return {};
     const float x = x_ / n_, y = y_ / n_, d = d_ / n_;
     const float xx = xx_ / n_ - x * x + kFlat, yy = yy_ / n_ - y * y + kFlat, xy = xy_ / n_ - x * y;

@@ -108,7 +108,7 @@ void SubPixel::compare(const DisparityMap& map, int r) {
   }
 }
 
-// Sums over squares around each pixel, by those of columns.
+// Sums over the square around each pixel, from sums over its columns.
 void SubPixel::step(DisparityMap& map) {
   const auto cols = static_cast<std::size_t>(map.cols);
   column_slopes_.assign(cols + 2 * kReach, 0);

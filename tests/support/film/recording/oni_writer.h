@@ -13,7 +13,7 @@
 namespace relievo::test {
 
 inline constexpr std::uint32_t kOniDepth = 2, kOniColor = 3, kOniInfrared = 5;  // kinds of nodes
-inline constexpr std::uint64_t kOniMm = 100, kOniTenthsOfMm = 101, kOniShifts = 102, kOniRgb = 200, kOniJpeg = 204;
+inline constexpr std::uint64_t kOniMm = 100, kOniTenthsOfMm = 101, kOniShifts = 102, kOniRgb = 200;
 
 struct OniNode {
   std::uint32_t kind = kOniDepth;
