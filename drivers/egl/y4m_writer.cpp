@@ -2,10 +2,14 @@
 // Converts bottom-up RGBA to planar BT.709 and keeps the file's frame rate.
 #include "drivers/egl/y4m_writer.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstddef>
+
+#include "platform/unique_fd.h"
 
 namespace relievo {
 namespace {
@@ -43,10 +47,17 @@ Y4mWriter::Y4mWriter(std::FILE* file, int width, int height, double rate)
                2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>((height + 1) / 2)) {}
 
 Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int height, double rate) {
-  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  // Without O_NONBLOCK, open(2) would wait for the reader of a pipe; the pictures then wait for it.
+  UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666));
+  if (!fd.valid() && errno == ENXIO) {
+    return fail(ErrorCode::Io, "no program reads this pipe; start its reader first", errno);
+  }
+  const bool waits = fd.valid() && ::fcntl(fd.get(), F_SETFL, O_WRONLY) == 0;
+  std::FILE* const file = waits ? ::fdopen(fd.get(), "wb") : nullptr;
   if (file == nullptr) {
     return fail(codeOf(errno), "the capture file cannot be written; check its folder and permissions", errno);
   }
+  static_cast<void>(fd.release());
   const long thousandths = std::lround(rate * 1000.0);
   Y4mWriter writer(file, width, height, static_cast<double>(thousandths) / 1000.0);
   if (std::fprintf(file, "YUV4MPEG2 W%d H%d F%ld:1000 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n", width, height,

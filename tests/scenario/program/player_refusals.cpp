@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -55,7 +56,11 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
   const auto capture = play(at("film.mkv"), "offscreen:" + at("missing/x.y4m"));
   EXPECT_EQ(capture.exit_code, 1) << capture.err;
   EXPECT_THAT(capture.err, HasSubstr("the capture file cannot be written"));
-  expectNothingLeft({"film.mkv"});
+  ASSERT_EQ(::mkfifo(at("pipe.y4m").c_str(), 0600), 0);
+  const auto piped = play(at("film.mkv"), "offscreen:" + at("pipe.y4m"));
+  EXPECT_EQ(piped.exit_code, 1) << piped.err;
+  EXPECT_THAT(piped.err, HasSubstr("no program reads this pipe; start its reader first"));
+  expectNothingLeft({"film.mkv", "pipe.y4m"});
 }
 
 // An @ that no rate follows is part of the file's name, for the guard as for the display.
