@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "app/media/reading/depth_reading.h"
+#include "app/media/reading/sample_parts.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -41,6 +42,21 @@ std::string blackHoles(const CodeCount& count, bool full) {
   return print("; if it is dark and black is a hole: --calibration polarity=near-low,invalid=0-%u", black + scale);
 }
 
+// How much brighter the upper third of the picture is than the lower one, as a share of all shades.
+double brighterAbove(const Frame& depth) {
+  const int third = depth.height / 3;
+  const double white = (1u << depth.components[0].bits) - 1;
+  if (third == 0) return 0;
+  const auto meanOf = [&](int first) {
+    double sum = 0;
+    for (int r = first; r < first + third; ++r) {
+      for (int c = 0; c < depth.width; ++c) sum += partAt(depth, 0, c, r);
+    }
+    return sum / (white * third * depth.width);
+  };
+  return meanOf(0) - meanOf(depth.height - third);
+}
+
 }  // namespace
 
 bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys) {
@@ -54,7 +70,12 @@ DepthReading readShades(const Frame& depth, const CodeCount& count, const Calibr
   if (!film && no_holes_said) readBlack(count, reading);
   if (says(said, {"polarity", "unit", "law"})) return reading;
   if (!reading.offer.empty()) reading.offer += "; ";
-  reading.offer += "near is taken to be bright; if it is dark: --calibration polarity=near-low";
+  constexpr double kClearly = 0.15;
+  // The ground is nearer below in most views.
+  reading.offer += brighterAbove(depth) > kClearly
+                       ? "near is taken to be bright, but the picture is brighter above than below, as if near were "
+                         "dark: --calibration polarity=near-low"
+                       : "near is taken to be bright; if it is dark: --calibration polarity=near-low";
   const bool full = depth.range == ColorRange::Full || reading.settings.contains("range");
   if (film && no_holes_said) reading.offer += blackHoles(count, full);
   return reading;

@@ -66,6 +66,14 @@ TEST(ShadeReading, AFilmsBlackIsOfferedAsAHole) {
   EXPECT_THAT(readingOf(film(8, 17, 60), {.command_line = {{"invalid", "none"}}}).offer, Not(HasSubstr(offer)));
 }
 
+// A street: the road below is nearer than the houses and the sky above.
+TEST(ShadeReading, GroundThatIsDarkSaysThatNearMayBeDark) {
+  const auto offerFor = [](const auto& code) { return readingOf(makeGrayFrame(64, 96, 8, {}, code)).offer; };
+  EXPECT_THAT(offerFor([](int, int r) { return 220 - 2 * r; }), HasSubstr("as if near were dark"));
+  EXPECT_THAT(offerFor([](int, int r) { return 30 + 2 * r; }), Not(HasSubstr("as if")));
+  EXPECT_THAT(offerFor([](int c, int) { return 30 + 2 * c; }), Not(HasSubstr("as if")));
+}
+
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
 TEST(ShadeReading, ShadesThatSwingAlongASlopeAreDoubted) {
   const auto doubts = [](const auto& code) { return doubtsOf(makeGrayFrame(256, 64, 8, {}, code), {}); };
