@@ -2,6 +2,11 @@
 // One row for each part of the player.
 #include "app/player/screen/statistics.h"
 
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "app/scene/sdr_color.h"
 #include "platform/print.h"
 
@@ -22,6 +27,17 @@ std::string depthOf(const FilmInfo& film) {
 std::string colorOf(const FilmInfo& film) {
   const char* const hdr = hdrName(film.color_transfer);
   return hdr == nullptr ? "SDR" : print("HDR (%s), mapped to SDR by ITU-R BT.2390", hdr);
+}
+
+// "eng [deu] 3": those without a language by their numbers, the chosen one in brackets.
+std::string listOf(const std::vector<FilmTrack>& tracks, std::optional<std::size_t> chosen) {
+  std::string list;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const std::string& language = tracks[i].language;
+    const std::string name = language.empty() || language == "und" ? std::to_string(i + 1) : language;
+    list += (i == 0 ? "" : " ") + (chosen == i ? "[" + name + "]" : name);
+  }
+  return list.empty() ? "none" : list;
 }
 
 void addTouch(ScreenRows& rows, const HapticSummary& haptic, const std::string& which, double force_n, bool has_depth) {
@@ -47,6 +63,7 @@ ScreenRows Statistics::rows(const PlayReport& report, const FingerForces& forces
       {"rate", print("%.1f of %.2f frames/s, %llu dropped", rate, nominal, count(report.frames_dropped))},
       {"picture", print("%dx%d %s, ", film.color_width, film.color_height, film.color_codec.c_str()) + depthOf(film)},
       {"colour", colorOf(film)},
+      {"tracks", "sound " + listOf(film.sounds, film.sound) + ", subtitles " + listOf(film.subtitles, film.words)},
       {"decoder", film.color_decoder},
       {"drawing",
        print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles, report.picture_error_px)}};

@@ -104,6 +104,7 @@ TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
     content.warning.clear();
     content.statistics = {{"rate", "29.9 of 30.00 frames/s, 0 dropped"},
                           {"picture", "1920x1080 h264, depth 1920x1080 h264"},
+                          {"tracks", "sound eng [deu] jpn fra, subtitles eng deu [ara] jpn fra"},
                           {"decoder", "ffmpeg"},
                           {"drawing", "12.3 ms, 12345 triangles, error 0.50 px"},
                           {"tick", "1000 Hz, 12.3 us, 99.9 % under 45.6 us, 0 late"},

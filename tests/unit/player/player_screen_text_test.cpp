@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "app/player/screen/notices.h"
+#include "app/player/screen/statistics.h"
 
 namespace relievo {
 namespace {
@@ -204,6 +207,20 @@ TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
   }
   text.hideKeys();
   EXPECT_FALSE(text.showsKeys());
+}
+
+TEST(Statistics, ListTheTracksAndMarkTheChosenOnes) {
+  PlayReport report;
+  const auto tracks = [&] {
+    const ScreenRows rows = Statistics().rows(report, {}, MonotonicTime{});
+    const auto row = std::ranges::find(rows, "tracks", &std::pair<std::string, std::string>::first);
+    return row == rows.end() ? std::string() : row->second;
+  };
+  EXPECT_EQ(tracks(), "sound none, subtitles none");
+  report.film.sounds = {{.language = "eng"}, {.language = "deu"}, {.language = "und"}};
+  report.film.sound = 1;
+  report.film.subtitles = {{.language = ""}};
+  EXPECT_EQ(tracks(), "sound eng [deu] 3, subtitles 1");
 }
 
 }  // namespace
