@@ -11,12 +11,11 @@ namespace relievo {
 namespace {
 
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
-constexpr std::size_t kVector = 8;   // costs
-constexpr int kReach = 2;            // pixels: of the census
-constexpr std::int16_t kSlope = 12;  // cost of a disparity's change by one, in bits of the census
-constexpr int kOutline = 20;    // where neighbours differ by so many levels, a large change of disparity costs half
-constexpr float kAgree = 1;     // pixels
-constexpr int kSpeckOf = 2000;  // a smaller part of the picture is a speck
+constexpr std::size_t kVector = 8;  // costs
+constexpr int kReach = 2;           // pixels: of the census
+constexpr int kOutline = 20;        // where neighbours differ by so many levels, a large change of disparity costs half
+constexpr float kAgree = 1;         // pixels
+constexpr int kSpeckOf = 2000;      // a smaller part of the picture is a speck
 constexpr std::int16_t kHigh = 8000;
 constexpr std::array kAcross{0, 1, -1};  // columns: where paths from another row come from
 
@@ -27,15 +26,20 @@ std::uint32_t bitsIn(std::uint32_t word) noexcept {
   return (word + (word >> 8) + (word >> 16)) & 0x3FU;
 }
 
+// Costs of a disparity's change from one pixel to the next.
+struct ChangeCosts {
+  std::int16_t by_one = 0, by_more = 0;
+};
+
 // One pixel's costs along a path: those of the pixel before it, `least` among them, and its own.
-std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const std::uint8_t* costs, std::int16_t step,
+std::int16_t continuePath(const std::int16_t* before, std::int16_t least, const std::uint8_t* costs, ChangeCosts change,
                           std::int16_t* now, std::int16_t* sums, std::size_t levels) noexcept {
-  const auto far = static_cast<std::int16_t>(least + step);
+  const auto far = static_cast<std::int16_t>(least + change.by_more);
   std::int16_t lowest = kHigh;
   const std::int16_t* const nearer = before - 1;  // a high cost lies before the first cost and after the last
   const std::int16_t* const farther = before + 1;
   for (std::size_t d = 0; d < levels; ++d) {
-    const auto beside = static_cast<std::int16_t>(std::min(nearer[d], farther[d]) + kSlope);
+    const auto beside = static_cast<std::int16_t>(std::min(nearer[d], farther[d]) + change.by_one);
     const std::int16_t best = std::min(std::min(before[d], beside), far);
     const auto cost = static_cast<std::int16_t>(costs[d] + best - least);
     now[d] = cost;
@@ -159,7 +163,7 @@ void QuickMatching::alongRow(int r, int step) {
   std::int16_t least = 0;
   const int begin = step > 0 ? 0 : map_.cols - 1, end = step > 0 ? map_.cols : -1;
   for (int c = begin; c != end; c += step) {
-    const Cost change = beside_[map_.at(c == begin ? c : std::max(c, c - step), r)];
+    const ChangeCosts change{rule_.slope, beside_[map_.at(c == begin ? c : std::max(c, c - step), r)]};
     least = continuePath(before, least, &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
     std::swap(before, now);
   }
@@ -182,9 +186,9 @@ void QuickMatching::fromRow(int other, int r, int across, Cost* paths) {
     const bool begins = !inside || x < 0 || x >= map_.cols;
     const auto pathOf = [&](int col) { return paths + static_cast<std::size_t>(col) * stride() + kVector; };
     const Cost* const from = begins ? &none_[kVector] : pathOf(x);
-    const Cost step = begins ? Cost{0} : steps[other < r ? map_.at(c, r) : map_.at(x, other)];
+    const ChangeCosts change{rule_.slope, begins ? Cost{0} : steps[other < r ? map_.at(c, r) : map_.at(x, other)]};
     const std::size_t end = levels_ + kVector - 1;
-    const Cost least = continuePath(from, from[end], &costs_[cell(c, r)], step, now, &sums_[cell(c, r)], levels_);
+    const Cost least = continuePath(from, from[end], &costs_[cell(c, r)], change, now, &sums_[cell(c, r)], levels_);
     std::copy(now, now + levels_, pathOf(c));
     pathOf(c)[end] = least;
   }

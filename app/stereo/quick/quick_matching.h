@@ -14,10 +14,11 @@ namespace relievo {
 
 // What the player and the author ask of the matcher; the player's first.
 struct MatchingRule {
-  int step = 150;          // cost of a disparity's change by more than one, where the picture is even, in census bits
-  int least_step = 40;     // the same at an outline
-  bool by_color = false;   // an outline is told by all parts of the pixels, not by the luma alone
-  bool diagonals = false;  // paths in eight directions, not in four
+  std::int16_t slope = 12;  // cost of a disparity's change by one, in census bits
+  int step = 150;           // the same for a change by more than one, where the picture is even
+  int least_step = 40;      // the same at an outline
+  bool by_color = false;    // an outline is told by all parts of the pixels, not by the luma alone
+  bool diagonals = false;   // paths in eight directions, not in four
 };
 
 // Census of 5 x 5 pixels (Zabih and Woodfill, ECCV 1994), whatever the exposure; paths in four or eight directions

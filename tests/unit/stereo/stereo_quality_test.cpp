@@ -166,8 +166,8 @@ TEST(StereoQuality, OfTheSampleFilmAsTwoCodedViews) {
     ours += both.ours.wrong;
     alone += both.alone.wrong;
   }
-  EXPECT_LE(ours / 2, 0.013);
-  EXPECT_LE(ours, 0.38 * alone);
+  EXPECT_LE(ours / 2, 0.011);
+  EXPECT_LE(ours, 0.3 * alone);
 }
 
 Truth readDisparity(const std::string& path) {
