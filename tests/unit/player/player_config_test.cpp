@@ -13,6 +13,7 @@
 
 #include "app/player/setup/options.h"
 #include "platform/log.h"
+#include "platform/print.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
@@ -163,7 +164,11 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
 
 TEST_F(PlayConfig, TheDefaultsPrintedAreThoseInUse) {
   const PlayOptions usual = play("", {"f.mkv"});
-  const PlayOptions read_back = play(printed(""), {"f.mkv"});
+  const std::string text = printed("");
+  for (const char* const key : {"packing", "depth-code", "stereo", "depth-strength"}) {
+    EXPECT_THAT(text, HasSubstr(print("\n%s = ", key)));
+  }
+  const PlayOptions read_back = play(text, {"f.mkv"});
   EXPECT_EQ(read_back.display, usual.display);
   EXPECT_EQ(read_back.haptic, usual.haptic);
   EXPECT_EQ(read_back.player.source.packing, usual.player.source.packing);
