@@ -8,6 +8,7 @@ inline constexpr const char* kAbout =
     "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device lets you feel its relief.\n";
 inline constexpr const char* kProgramAbout =
     "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
+    "  relievo                   shows a list of films to choose from\n"
     "  relievo help COMMAND      shows the options of a command; `relievo help play` begins with the most frequent "
     "uses\n";
 inline constexpr const char* kProgramFooter =

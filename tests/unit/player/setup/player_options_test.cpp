@@ -29,6 +29,7 @@ TEST(Options, AFirstWordThatIsNoCommandIsAFilm) {
 TEST(Options, HelpAndVersionAreAnsweredEverywhere) {
   for (const std::vector<const char*>& words : {std::vector<const char*>{"help"}, {"--help"}, {"-h"}}) {
     EXPECT_THAT(parse(words).out, HasSubstr("relievo film.mkv")) << words[0];
+    EXPECT_THAT(parse(words).out, HasSubstr("\n  relievo                   shows a list of films")) << words[0];
   }
   EXPECT_EQ(parse({"help", "play"}).out, parse({"play", "--help"}).out);
   EXPECT_EQ(parse({"play", "help"}).out, parse({"play", "--help"}).out);
