@@ -14,10 +14,12 @@ constexpr float kSurface = 0.75F;     // pixels of disparity between two surface
 constexpr std::uint8_t kMemory = 24;  // pictures
 constexpr int kMovingMemory =
     5;  // pictures, for objects that come nearer or go away, whose change is known only roughly
-constexpr std::uint8_t kPatience = 8;  // pictures in a row that found another surface
-constexpr int kInferred = 3;           // seen pictures that an inferred disparity counts less than
-constexpr int kBeside = 3;             // pixels on each side that are compared to choose a surface
-constexpr int kPlainly = 2;            // gray levels a pixel by which the other surface must fit better to be taken
+constexpr std::uint8_t kPatience = 8;   // pictures in a row that found another surface
+constexpr std::uint8_t kConfirmed = 2;  // likewise, where both views show it
+constexpr float kStep = 2;    // pixels of disparity: what comes nearer changes by less from picture to picture
+constexpr int kInferred = 3;  // seen pictures that an inferred disparity counts less than
+constexpr int kBeside = 3;    // pixels on each side that are compared to choose a surface
+constexpr int kPlainly = 2;   // gray levels a pixel by which the other surface must fit better to be taken
 
 bool isNear(float a, float b) noexcept {
   return std::abs(a - b) < kSurface;
@@ -139,14 +141,16 @@ void SteadyDisparity::findStill(const DisparityMap& map) {
   }
 }
 
-// Another surface than before on the same object: takes the one at which both views match. A surface seen often is kept
+// Another surface than before on the same object: takes the one at which both views match; beyond a step only if it
+// is found twice in a row, since beside an outline the two surfaces are found in turns. A surface seen often is kept
 // longer; a moving one is not kept against a new match, since something else lies beside its edge.
 void SteadyDisparity::choose(DisparityMap& map, int c, int r, Was& was) const {
   const std::size_t i = map.at(c, r);
   if (map.seen[i] != 0) ++was.strays;
   const bool given_up = was.strays >= (was.moved ? 1 : std::min(was.age, kPatience));
+  const bool certain = was.strays >= kConfirmed || std::abs(map.pixels[i] - was.disparity) < kStep;
   const bool plainly =
-      map.seen[i] != 0 && misfit(map, c, r, map.pixels[i]) + kPlainly < misfit(map, c, r, was.disparity);
+      map.seen[i] != 0 && certain && misfit(map, c, r, map.pixels[i]) + kPlainly < misfit(map, c, r, was.disparity);
   if (plainly || given_up) was = {};
   else map.pixels[i] = was.disparity;
 }
