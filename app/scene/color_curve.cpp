@@ -86,6 +86,28 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
   }
 }
 
+ColorCurve::FourPoints ColorCurve::nearestOfFour(const FourColors& colors) const RELIEVO_RT {
+  struct {
+    Four y, u, v;
+  } from, along, per;
+  Four first;  // of the pieces' numbers
+  for (int i = 0; i < 4; ++i) {
+    const int k = pieceFor(colors.y[i], colors.u[i], colors.v[i]);
+    const Piece& piece = pieces_[static_cast<std::size_t>(k)];
+    first[i] = static_cast<float>(k);
+    from.y[i] = piece.from.y, from.u[i] = piece.from.u, from.v[i] = piece.from.v;
+    along.y[i] = piece.along.y, along.u[i] = piece.along.u, along.v[i] = piece.along.v;
+    per.y[i] = piece.per_length.y, per.u[i] = piece.per_length.u, per.v[i] = piece.per_length.v;
+  }
+  constexpr Four kBegin{}, kEnd{1, 1, 1, 1};
+  const Four y = colors.y - from.y, u = colors.u - from.u, v = colors.v - from.v;
+  const Four t = y * per.y + u * per.u + v * per.v;
+  const Four left_y = y - t * along.y, left_u = u - t * along.u, left_v = v - t * along.v;
+  const Four distance2 = left_y * left_y + left_u * left_u + left_v * left_v;
+  const Four on_piece = t < kBegin ? kBegin + std::numeric_limits<float>::infinity() : distance2;
+  return {(first + t) * per_piece_, t > kEnd ? kBegin + std::numeric_limits<float>::infinity() : on_piece};
+}
+
 ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float high) const RELIEVO_RT {
   const auto weighted = [](const YuvColor& a, const YuvColor& b) {
     return a.y * b.y + kChromaWeight * (a.u * b.u + a.v * b.v);

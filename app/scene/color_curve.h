@@ -36,6 +36,15 @@ class ColorCurve {
 
   // In the header: `s` is then known before the distance's root is.
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
+  // Four colours side by side, by a vector extension that GCC and clang share.
+  using Four = float __attribute__((vector_size(16)));
+  struct FourColors {
+    Four y, u, v;
+  };
+  struct FourPoints {
+    Four s, distance2;  // squared distance; infinite where another piece may be nearer, which only `nearest` tells
+  };
+  [[nodiscard]] FourPoints nearestOfFour(const FourColors& colors) const RELIEVO_RT;
   // The point of the curve from `low` to `high` that is nearest to the colour if an error of chroma counts less than
   // one of luma, as where chroma is mixed; and the squared distance in that metric.
   struct Between {
@@ -66,6 +75,13 @@ class ColorCurve {
     return {t, left_y * left_y + left_u * left_u + left_v * left_v};
   }
 
+  // The piece that the cube has for a colour.
+  [[nodiscard]] int pieceFor(float y, float u, float v) const RELIEVO_RT {
+    const auto cell = [](float x) { return std::clamp(static_cast<int>(x * kSide), 0, kSide - 1); };
+    const int index = (cell(y) * kSide + cell(u + 0.5F)) * kSide + cell(v + 0.5F);
+    return nearest_piece_[static_cast<std::size_t>(index)];
+  }
+
   std::vector<Piece> pieces_;
   float per_piece_ = 0;  // of s
   bool closed_ = false;
@@ -73,9 +89,7 @@ class ColorCurve {
 };
 
 inline ColorCurve::Point ColorCurve::nearest(const YuvColor& color) const RELIEVO_RT {
-  const auto cell = [](float x) { return std::clamp(static_cast<int>(x * kSide), 0, kSide - 1); };
-  const int index = (cell(color.y) * kSide + cell(color.u + 0.5F)) * kSide + cell(color.v + 0.5F);
-  int k = nearest_piece_[static_cast<std::size_t>(index)];
+  int k = pieceFor(color.y, color.u, color.v);
   Place place = placeOn(pieces_[static_cast<std::size_t>(k)], color);
   for (int walked = 0; walked < 2 && (place.t < 0 || place.t > 1); ++walked) {
     const int count = static_cast<int>(pieces_.size());

@@ -54,6 +54,15 @@ struct Edge {
 ColorReading::ColorReading(const Frame& frame, DepthCode code)
     : samples_(frame), curve_(&curveOf(code)), cols_(frame.width), rows_(frame.height) {}
 
+void ColorReading::sharesOfFour(const int* columns, int r, double* shares) const RELIEVO_RT {
+  const ColorCurve::FourPoints points = curve_->nearestOfFour(samples_.ofFour(columns, r));
+  for (int i = 0; i < 4; ++i) {
+    const ColorCurve::Point point{points.s[i], std::sqrt(points.distance2[i])};
+    const bool plain = point.distance <= kUnmixed && isSure(point);
+    shares[i] = plain ? static_cast<double>(point.s) : shareAt(columns[i], r);
+  }
+}
+
 double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   YuvColor mean;
   if (!samples_.meanOfEvenBlock(c0, r0, block, mean)) return kHole;

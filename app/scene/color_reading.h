@@ -36,6 +36,8 @@ class ColorReading {
     return reading.distance <= kUnmixed && isSure(reading) ? static_cast<double>(reading.s)
                                                            : shareBeside(c, r, own, reading);
   }
+  // The same of four samples of a row, which are computed side by side where they are on the curve.
+  void sharesOfFour(const int* columns, int r, double* shares) const RELIEVO_RT;
   // Colours that differ little lie on one straight piece of the curve, or nearly so: their mean is the colour of the
   // mean height. A hole if they differ more, or stand for no depth.
   [[nodiscard]] double shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;

@@ -25,6 +25,19 @@ class ColorSamples {
     const float second = codeAt(1, c >> shift_x_, r >> shift_y_), third = codeAt(2, c >> shift_x_, r >> shift_y_);
     return colorOf(first, second, third);
   }
+  // The colours of four samples of a row.
+  [[nodiscard]] ColorCurve::FourColors ofFour(const int* columns, int r) const RELIEVO_RT {
+    ColorCurve::Four first, second, third;
+    for (int i = 0; i < 4; ++i) {
+      first[i] = codeAt(0, columns[i], r);
+      second[i] = codeAt(1, columns[i] >> shift_x_, r >> shift_y_);
+      third[i] = codeAt(2, columns[i] >> shift_x_, r >> shift_y_);
+    }
+    const auto part = [&](const std::array<float, 4>& row) {
+      return row[0] * first + row[1] * second + row[2] * third + row[3];
+    };
+    return {part(rows_[0]), part(rows_[1]), part(rows_[2])};
+  }
   // The colour of (c, r) with chroma interpolated to its place, from the four chroma samples around it. `cols` and
   // `rows`: of the picture.
   [[nodiscard]] YuvColor interpolatedAt(int c, int r, int cols, int rows) const RELIEVO_RT;

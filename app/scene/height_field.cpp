@@ -2,6 +2,7 @@
 // Creates the view of a depth plane, and reads its samples, rows and blocks.
 #include "app/scene/height_field.h"
 
+#include <array>
 #include <cmath>
 
 #include "app/scene/code_sums.h"
@@ -174,6 +175,11 @@ bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm
     return false;
   }
   const float* const first = heights_mm;
+  for (; layout_ == Layout::Curve && columns.size() >= 4; columns = columns.subspan(4)) {
+    std::array<double, 4> shares;
+    colors_.sharesOfFour(columns.data(), r, shares.data());
+    for (const double share : shares) *heights_mm++ = static_cast<float>(heightOfColor(steps_ * share));
+  }
   for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
   return std::any_of(first, const_cast<const float*>(heights_mm), [](float z) { return std::isnan(z); });
 }

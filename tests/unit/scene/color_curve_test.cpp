@@ -201,6 +201,23 @@ TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
   }
 }
 
+// Samples of a row are read side by side; at edges, in black and at the seam one by one.
+TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
+  const Film film{.color = [](int c, int r) { return c < 9 ? Rgb{} : hue(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  std::vector<int> columns;
+  for (int c = 47; c >= 0; c -= 1 + c % 2) columns.push_back(c);
+  std::vector<float> heights(columns.size());
+  for (int r = 0; r < film.rows; ++r) {
+    EXPECT_TRUE(field.readRow(r, columns, heights.data()));  // black is a hole
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto alone = static_cast<float>(field.heightMm(columns[i], r));
+      EXPECT_TRUE(heights[i] == alone || (std::isnan(heights[i]) && std::isnan(alone))) << columns[i] << ' ' << r;
+    }
+  }
+}
+
 // Of an edge that takes five samples, those in its middle are on neither side.
 TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
   for (const auto& [left, right] : {std::pair(0.5, 0.8), {0.8, 0.5}, {0.1, 0.4}, {0.25, 0.65}}) {
