@@ -49,6 +49,15 @@ Duration decodingDelayOf(const AVFormatContext& context) noexcept {
   return longest;
 }
 
+// In WMV each stream has the whole film's length, to which FFmpeg adds the stream's beginning.
+Duration longestStreamOf(const AVFormatContext& context) noexcept {
+  Duration longest{0};
+  for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
+    if (stream->duration > 0) longest = std::max(longest, durationFrom(stream->duration, stream->time_base));
+  }
+  return longest;
+}
+
 std::string layoutOf(const AVChannelLayout& layout) {
   std::array<char, 64> text{};
   const bool known = layout.nb_channels > 0 && av_channel_layout_describe(&layout, text.data(), text.size()) > 0;
@@ -193,6 +202,8 @@ Duration startOf(const AVFormatContext& context) noexcept {
 
 Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
   if (context.duration <= 0) return Duration(0);
+  const std::string_view name(context.iformat->name);
+  if (name == "asf") return longestStreamOf(context);
   const Duration stated = durationFrom(context.duration, kMicrosecond);
   if (context.duration_estimation_method != AVFMT_DURATION_FROM_STREAM || start <= Duration(0)) return stated;
   Duration end{0};
@@ -202,7 +213,6 @@ Duration lengthOf(const AVFormatContext& context, Duration start) noexcept {
     end = std::max(end, durationFrom(stream.start_time + stream.duration, stream.time_base));
   }
   if (end > start) return std::min(stated, end - start);
-  const std::string_view name(context.iformat->name);
   const Duration more = name.starts_with("matroska") ? start : name == "flv" ? decodingDelayOf(context) : Duration(0);
   return stated > more ? stated - more : stated;
 }

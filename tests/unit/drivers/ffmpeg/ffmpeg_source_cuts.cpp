@@ -192,6 +192,21 @@ TEST(FfmpegSource, AWholeFilmOfOnePictureASecondLacksNothing) {
   }
 }
 
+TEST(FfmpegSource, SoundThatBeginsLateIsNoMissingPart) {
+  TemporaryFolder folder;
+  const std::string make = "cd '" + folder / "" +
+                           "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=25:d=4 -itsoffset 2 -f lavfi "
+                           "-i sine=d=4 -c:v wmv2 -c:a wmav2 a.wmv -c:v libx264 -c:a aac a.mkv";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  for (const char* name : {"a.wmv", "a.mkv"}) {
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / name).has_value()) << name;
+    EXPECT_NEAR(toSeconds(source->duration()), 6, 0.1) << name;
+    readAll(*source);
+    EXPECT_EQ(source->missing(), Duration(0)) << name;
+  }
+}
+
 // 48 pictures are 2 s. The container's end is that of a subtitle. If a seek skips it, no packet that was read reaches
 // that end, but nothing is missing.
 TEST(FfmpegSource, SubtitlesThatOutlastThePictureAreNoMissingPart) {
