@@ -120,9 +120,24 @@ Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end
   return last != some.rend() && *last != kTrailer ? end.picture : Duration(0);
 }
 
-constexpr std::array kOwnSigns{OwnSign{"avi", uncounted}, OwnSign{"yuv4mpegpipe", brokenPicture},
+// A WMV file that is shorter than its header says: File Properties Object of the ASF specification, 3.2. FFmpeg then
+// knows no length. A broadcast's header does not know its size.
+Duration smallerThanItsHeaderSays(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  constexpr std::array<std::uint8_t, 16> kProperties{0xa1, 0xdc, 0xab, 0x8c, 0x47, 0xa9, 0xcf, 0x11,
+                                                     0x8e, 0xe4, 0x00, 0xc0, 0x0c, 0x20, 0x53, 0x65};
+  constexpr std::ptrdiff_t kSize = 40, kFlags = 88;
+  std::array<std::uint8_t, 4096> head{};
+  if (end.bytes < static_cast<std::int64_t>(head.size()) || !readAt(context, 0, head)) return Duration(0);
+  const auto found = std::ranges::search(head, kProperties);
+  if (found.empty() || head.end() - found.begin() <= kFlags || (found.begin()[kFlags] & 1) != 0) return Duration(0);
+  std::int64_t size = 0;
+  for (std::ptrdiff_t i = 7; i >= 0; --i) size = size % (std::int64_t{1} << 48) * 256 + found.begin()[kSize + i];
+  return size > end.bytes ? end.picture : Duration(0);  // how much is known by a gap, if it was in the middle
+}
+
+constexpr std::array kOwnSigns{OwnSign{"avi", uncounted},       OwnSign{"yuv4mpegpipe", brokenPicture},
                                OwnSign{"mpegts", brokenPacket}, OwnSign{"ogg", lastPageGone},
-                               OwnSign{"gif", trailerGone}};
+                               OwnSign{"gif", trailerGone},     OwnSign{"asf", smallerThanItsHeaderSays}};
 
 constexpr Duration kDoubtful = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
 constexpr Duration kNoStill = std::chrono::seconds(1);
