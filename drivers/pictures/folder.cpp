@@ -113,7 +113,7 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
 
 // One picture of two cameras: of its depth if that is known, else of both views.
 bool sortByView(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
-  const auto stereo = stereoAmong(names);
+  const auto stereo = stereoAmong(names, Named::Pictures);
   if (!stereo) return false;
   found.views = stereo->depth.empty();
   found.color = {folder, {stereo->left}};
@@ -126,7 +126,7 @@ bool sortByView(const std::string& folder, const std::vector<std::string>& names
 bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   std::vector<std::string> names = listing.folders;
   std::erase_if(names, [&](const std::string& name) { return isFolder(folder + name + "/data_rgb"); });
-  const auto stereo = stereoAmong(names);
+  const auto stereo = stereoAmong(names, Named::Folders);
   if (!stereo || !stereo->depth.empty()) return false;
   FoundPictures views{.views = true};
   views.color = picturesIn(folder + stereo->left + "/", views);
@@ -191,15 +191,23 @@ Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = t
 std::optional<FoundPictures> findBelow(const std::string& folder, Listing listing) {
   constexpr std::size_t kMostFolders = 16;
   std::optional<FoundPictures> found;
+  std::vector<FoundPictures> views;
+  bool cameras = true;
   if (listing.folders.size() > kMostFolders) return std::nullopt;
   std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
     auto below = findInFolder(folder + name + "/", false);
-    if (!below || below->views || below->color.names.empty() || below->depth.names.empty()) continue;
-    if (found && !lowerCase(name).starts_with("cam")) return std::nullopt;
+    if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
+    if (below->views) {
+      views.push_back(*std::move(below));
+      continue;
+    }
+    cameras = cameras && lowerCase(name).starts_with("cam");
+    if (found && !cameras) return std::nullopt;
     if (found) found->left_out += below->color.names.size() + below->depth.names.size();
     else found = *std::move(below);
   }
+  if (!found && views.size() == 1) found = std::move(views.front());
   return found;
 }
 

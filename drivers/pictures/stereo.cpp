@@ -17,6 +17,7 @@ struct Layout {
   std::string_view left, right;
   std::array<std::string_view, kMostDepths> depths;  // empty at the end
   std::string_view series;                           // a picture of this name beside the views makes them a series
+  Named named = Named::Pictures;                     // else of folders alone
 };
 constexpr std::array<std::string_view, kMostDepths> kDepths{"disp",      "disparity",      "disp_left",
                                                             "left_disp", "disparity_left", "left_disparity",
@@ -29,11 +30,11 @@ constexpr std::array<Layout, 12> kLayouts{{
     {"left_rgb", "right_rgb", kDepths, ""},
     {"iml", "imr", {"displ", "disp", "depthl", "depth"}, ""},
     {"imgl", "imgr", {"displ", "disp", "depthl", "depth"}, ""},
-    {"cam0", "cam1", {}, "cam2"},
-    {"cam_0", "cam_1", {}, "cam_2"},
-    {"image_00", "image_01", {}, ""},
-    {"image_02", "image_03", {}, ""},
-    {"image_2", "image_3", {}, ""},
+    {"cam0", "cam1", {}, "cam2", Named::Folders},
+    {"cam_0", "cam_1", {}, "cam_2", Named::Folders},
+    {"image_00", "image_01", {}, "", Named::Folders},
+    {"image_02", "image_03", {}, "", Named::Folders},
+    {"image_2", "image_3", {}, "", Named::Folders},
 }};
 // In the order of preference, formats of floating-point numbers first.
 constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
@@ -65,9 +66,10 @@ std::string findDepth(const std::vector<std::string>& names, const Layout& layou
 
 }  // namespace
 
-std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names) {
+std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named) {
   std::optional<StereoNames> without_depth;
   for (const Layout& layout : kLayouts) {
+    if (layout.named == Named::Folders && named == Named::Pictures) continue;
     StereoNames found{find(names, layout.left), find(names, layout.right), findDepth(names, layout)};
     if (found.left.empty() || found.right.empty()) continue;
     if (!found.depth.empty()) return found;

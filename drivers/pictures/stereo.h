@@ -13,6 +13,8 @@ struct StereoNames {
   std::string depth;  // disparities or distances of the left view; empty if there are none
 };
 
+enum class Named : bool { Pictures, Folders };
+
 // Among the names of pictures, or of folders, in a folder:
 //   im0, im1, disp0                  Middlebury 2014 and 2021, ETH3D
 //   im2, im6, disp2                  Middlebury 2001 and 2003; the other views are left out
@@ -20,8 +22,8 @@ struct StereoNames {
 //   left, right, disp or depth       and other words for them
 //   image_02, image_03               KITTI, else its gray image_00 and image_01
 //   cam0, cam1                       EuRoC and others, unless there is a third
-// Of two files of disparities the one with numbers is taken: a PFM rather than a PNG. nullopt if these are no two
-// views.
-[[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names);
+// The last two are folders alone: pictures of such names are a series. Of two files of disparities the one with numbers
+// is taken: a PFM rather than a PNG. nullopt if these are no two views.
+[[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named);
 
 }  // namespace relievo::pictures

@@ -7,6 +7,7 @@
 
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/other_files.h"
+#include "drivers/pictures/stereo.h"
 
 namespace relievo {
 namespace {
@@ -110,6 +111,15 @@ TEST(PictureNames, GreatNumbersCountNoPictures) {
   const auto great = valuesOf({"2222222222222222222.png", "1.png"});
   EXPECT_EQ(great.kind, NameKind::Ranks);
   EXPECT_EQ(great.values, (std::vector<std::int64_t>{1, 0}));
+}
+
+TEST(StereoNames, NumbersOfASeriesAreNoCameras) {
+  const std::vector<std::string> series{"image_00.png", "image_01.png", "image_02.png", "image_03.png"};
+  EXPECT_FALSE(pictures::stereoAmong(series, pictures::Named::Pictures).has_value());
+  const auto cameras =
+      pictures::stereoAmong({"image_00", "image_01", "image_02", "image_03"}, pictures::Named::Folders);
+  ASSERT_TRUE(cameras.has_value());
+  EXPECT_EQ(cameras->left + " " + cameras->right, "image_02 image_03");
 }
 
 }  // namespace

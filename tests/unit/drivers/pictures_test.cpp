@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Folders, patterns and lists of pictures: which pictures they name, when each was taken, which depth belongs to which
-// colour.
+// Folders, patterns and lists of pictures: which pictures they name, when each was taken, and which are pairs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -221,12 +220,12 @@ TEST_F(Pictures, AFolderNamedForColourMayHoldBoth) {
   EXPECT_THAT(read(folder_ / "c").notes, Contains(HasSubstr("4 other pictures are left out")));
 }
 
-// KITTI, KITTI-360, whose second pair are fisheyes, EuRoC and other rigs of two cameras.
+// KITTI, KITTI-360, whose second pair are fisheyes, EuRoC, other rigs of two cameras; the only scene of a folder.
 TEST_F(Pictures, FoldersOfTwoCamerasAreTwoViews) {
   for (const char* name :
        {"k/image_00/data", "k/image_01/data", "k/image_02/data", "k/image_03/data", "k360/image_00/data_rect",
         "k360/image_01/data_rect", "k360/image_02/data_rgb", "k360/image_03/data_rgb", "e/cam0/data", "e/cam1/data",
-        "e/body", "r/cam_0", "r/cam_1", "ring/cam_0", "ring/cam_1", "ring/cam_2"}) {
+        "e/body", "r/cam_0", "r/cam_1", "ring/cam_0", "ring/cam_1", "ring/cam_2", "p/scene/left", "p/scene/right"}) {
     file(std::string(name) + "/7.png");
   }
   const auto viewsOf = [&](const std::string& folder) {
@@ -239,6 +238,7 @@ TEST_F(Pictures, FoldersOfTwoCamerasAreTwoViews) {
   EXPECT_EQ(viewsOf("k360"), "0 k360/image_00/data_rect/7.png 0 k360/image_01/data_rect/7.png");
   EXPECT_EQ(viewsOf("e"), "0 e/cam0/data/7.png 0 e/cam1/data/7.png");
   EXPECT_EQ(viewsOf("r"), "0 r/cam_0/7.png 0 r/cam_1/7.png");
+  EXPECT_EQ(viewsOf("p"), "0 p/scene/left/7.png 0 p/scene/right/7.png");
   EXPECT_EQ(viewsOf("ring"), "0 ring/cam_0/7.png ");
 }
 
