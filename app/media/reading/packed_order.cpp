@@ -118,7 +118,6 @@ SampleOrder packedOrder(const Frame& depth) {
   if (!isPackable(depth)) return SampleOrder::AsStored;
   if (holdsFloats(depth)) return SampleOrder::FloatBytes;
   if (const SampleOrder terrain = terrainOrder(depth); terrain != SampleOrder::AsStored) return terrain;
-  if (isNumber(depth)) return areBelow20Bits(depth) ? SampleOrder::Below20 : SampleOrder::BlueGreen;
   std::uint64_t other_blue = 0;
   const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
   for (int r = 0; r < depth.height; ++r) {
@@ -126,6 +125,7 @@ SampleOrder packedOrder(const Frame& depth) {
   }
   const std::uint64_t samples = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
   if (100 * other_blue > samples) {  // of 24 bits the upper 16, whichever end is the upper one
+    if (isNumber(depth)) return areBelow20Bits(depth) ? SampleOrder::Below20 : SampleOrder::BlueGreen;
     if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
     return carries(depth, 2, 1) ? SampleOrder::BlueGreen : SampleOrder::AsStored;
   }

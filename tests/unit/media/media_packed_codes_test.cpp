@@ -85,6 +85,18 @@ TEST(PackedCodes, CarlasThreeBytesOfARoomAreReadFinely) {
   EXPECT_NE(line.find("62 m"), std::string::npos) << line;
 }
 
+// Green above red, without blue, on a slope on which red goes round every eleven columns.
+TEST(PackedCodes, ASteepSlopeOfTwoBytesIsNotTakenForThree) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {pictures([](int k, int c, int) {
+             const auto mm = static_cast<std::uint32_t>(1000 + 24 * c);
+             return k == 2 ? 0u : k == 1 ? mm >> 8 : mm & 0xff;
+           })});
+  const OpenedFilm film = openFilm({.url = folder / "a.png"});
+  const std::string line = plainLine(film.info.reading, film.info.calibration.calibration);
+  EXPECT_NE(line.find("two bytes"), std::string::npos) << line;
+}
+
 // Tiles of terrain by their makers' formulas: a slope from 260 m below the sea to 1150 m above it.
 struct Tile {
   const char* kind;
