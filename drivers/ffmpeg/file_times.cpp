@@ -109,15 +109,14 @@ Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& en
   return page.size() > 0 && some.end() - page.begin() > 5 && (page.begin()[5] & kLast) == 0 ? end.picture : Duration(0);
 }
 
-// A GIF file without its trailer (GIF89a, 27). Zeros may stand behind it.
+// A GIF file without its trailer behind the end of a block (GIF89a, 15 and 27). Other bytes may follow it.
 Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
-  constexpr std::uint8_t kTrailer = 0x3b;
+  constexpr std::array<std::uint8_t, 2> kEnd{0, 0x3b};
   std::array<std::uint8_t, 256> tail{};
   const std::span some =
       std::span(tail).first(static_cast<std::size_t>(std::min(end.bytes, static_cast<std::int64_t>(tail.size()))));
   if (!readAt(context, end.bytes - static_cast<std::int64_t>(some.size()), some)) return Duration(0);
-  const auto last = std::ranges::find_if(some.rbegin(), some.rend(), [](std::uint8_t byte) { return byte != 0; });
-  return last != some.rend() && *last != kTrailer ? end.picture : Duration(0);
+  return std::ranges::search(some, kEnd).empty() ? end.picture : Duration(0);
 }
 
 // A WMV file that is shorter than its header says: File Properties Object of the ASF specification, 3.2. FFmpeg then
@@ -140,7 +139,7 @@ constexpr std::array kOwnSigns{OwnSign{"avi", uncounted},       OwnSign{"yuv4mpe
                                OwnSign{"gif", trailerGone},     OwnSign{"asf", smallerThanItsHeaderSays}};
 
 constexpr Duration kDoubtful = std::chrono::milliseconds(250);  // FFmpeg's parsers are some pictures late
-constexpr Duration kNoStill = std::chrono::seconds(1);
+constexpr Duration kLongGap = std::chrono::seconds(1);
 constexpr Duration kUsualPicture = std::chrono::milliseconds(40);  // where its length is unknown
 
 }  // namespace
@@ -169,11 +168,11 @@ void FileTimes::mend(Packet& packet, const std::string& url) {
 }
 
 Duration PacketLengths::of(const Packet& packet, Duration stated) {
-  if (stated > Duration(0) || !packet.dts) return stated;
+  if (!packet.dts) return stated;
   Line& line = lines_.try_emplace(packet.stream, Line{.last = *packet.dts}).first->second;
   if (*packet.dts > line.last) line.step = *packet.dts - line.last;
   line.last = *packet.dts;
-  return line.step;
+  return stated > Duration(0) ? stated : line.step;
 }
 
 void FileGaps::begin() noexcept {
@@ -194,7 +193,7 @@ void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, const st
       log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be read", url.c_str(),
           toSeconds(gap), toSeconds(end));
     }
-  } else if (gap > kNoStill && doubt == Doubt::Steady && isTold(++gaps_)) {
+  } else if (gap > kLongGap && doubt == Doubt::Steady && isTold(++gaps_)) {
     log(LogLevel::Warning, "media", "%s: for %.1f s at %.1f s there are no pictures: a still, or a part is missing",
         url.c_str(), toSeconds(gap), toSeconds(end));
   }
@@ -240,7 +239,7 @@ void FileEnd::reach(const AVFormatContext& context, bool doubtful) noexcept {
   const bool jumps = (context.iformat->flags & AVFMT_TS_DISCONT) != 0;
   const bool told = one && context.duration > 0 && (stated ? !jumps || !sought_ : bytesOf(context) < reached_.bytes);
   missing_ = told ? lengthOf(context, start_) - reached_.latest : Duration(0);
-  const bool unreadable = doubtful && !stated;
+  const bool unreadable = doubtful && !stated && !jumps;
   if (one && (jumps || unreadable)) missing_ = std::max(missing_, unread(context, unreadable));
   if (missing_ <= kWholeWithin) missing_ = broken_ ? reached_.picture : Duration(0);
   const auto own = std::ranges::find(kOwnSigns, context.iformat->name, &OwnSign::container);

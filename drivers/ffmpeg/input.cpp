@@ -21,7 +21,7 @@
 namespace relievo::ffmpeg {
 namespace {
 
-constexpr std::int64_t kNoByte = std::numeric_limits<std::int64_t>::min();  // packets without a place are at -1
+constexpr std::int64_t kNoByte = 0;
 constexpr std::int64_t kAllBytes = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
 
@@ -96,9 +96,14 @@ int Input::readFrame(AVFormatContext& container, AVPacket& packet) {
   LibraryWords words;
   words.listenTo(container);
   const int got = av_read_frame(&container, &packet);
-  doubtful_ = words.containerWarned() || (got < 0 ? doubtful_ : packet.pos < doubtful_until_);
+  doubtful_ = words.containerWarned() || (got < 0 ? doubtful_ : isUnsure(packet.pos));
   if (got >= 0 && doubtful_) packet.opaque = this;
   return got;
+}
+
+// Packets without a place are as sure as those beside them.
+bool Input::isUnsure(std::int64_t place) const noexcept {
+  return doubtful_until_ == kAllBytes || (place >= 0 && place < doubtful_until_);
 }
 
 Doubt Input::doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept {
@@ -143,12 +148,11 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
 // FFmpeg skips segments of a list that it cannot open. If it opens none, the refusal says it.
 void Input::noteLost(const char* part) {
   ++lost_;
-  if (opened_) tellLost(part);
-  else if (lost_ == 1) first_lost_ = part;
+  if (lost_ == 1) first_lost_ = part;
+  if (opened_ && isTold(lost_)) tellLost(part);
 }
 
 void Input::tellLost(const std::string& part) const {
-  if (!isTold(lost_)) return;
   if (lost_ == 1)
     log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part.c_str());
   else log(LogLevel::Warning, "media", "%s: %u of its parts cannot be opened and are left out", url_.c_str(), lost_);

@@ -54,6 +54,7 @@ class Input {
   int openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options);
   void noteLost(const char* part);
   void tellLost(const std::string& part) const;
+  [[nodiscard]] bool isUnsure(std::int64_t place) const noexcept;
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
   Watch& watch_;
@@ -63,8 +64,8 @@ class Input {
   bool reads_files_ = false;
   int opens_ = 0;
   bool opened_ = false;
-  std::string first_lost_;  // while the container was opened
-  unsigned lost_ = 0;       // parts that could not be opened
+  std::string first_lost_;
+  unsigned lost_ = 0;  // parts that could not be opened
   bool doubtful_ = false;
   std::int64_t doubtful_until_ = 0;  // the byte to which the container was read while it was opened, if it warned
   UniqueFd pipe_;                    // outlives the container that reads from it

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/network_error.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 
@@ -15,6 +16,10 @@ namespace relievo::ffmpeg {
 namespace {
 
 thread_local LibraryWords* words_of_thread = nullptr;
+// Warnings of whole films: of tracks whose first packets come late, of rates, of times that FFmpeg then corrects.
+constexpr std::array<std::string_view, 5> kHarmless{
+    "Could not find codec parameters", "Estimating duration from bitrate", "not enough frames to estimate rate",
+    "start time for stream", "Invalid timestamps"};
 
 bool has(std::string_view text, std::string_view part) noexcept {
   return text.find(part) != std::string_view::npos;
@@ -25,7 +30,8 @@ bool has(std::string_view text, std::string_view part) noexcept {
 void LibraryWords::keep(void* context, int level, const char* format, va_list arguments) {
   if (words_of_thread == nullptr) return;
   const bool of_container = context != nullptr && context == words_of_thread->container_;
-  if (of_container && level <= AV_LOG_WARNING) words_of_thread->container_warned_ = true;
+  const bool harmless = std::ranges::any_of(kHarmless, [&](std::string_view words) { return has(format, words); });
+  if (of_container && level <= AV_LOG_WARNING && !harmless) words_of_thread->container_warned_ = true;
   if (level > AV_LOG_ERROR) return;
   std::array<char, 256> line;
   int prefixed = 1;

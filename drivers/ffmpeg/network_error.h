@@ -22,7 +22,7 @@ class LibraryWords {
   LibraryWords& operator=(const LibraryWords&) = delete;
 
   [[nodiscard]] const std::string& last() const noexcept { return last_; }
-  // From now on, warnings of the container are noted.
+  // From now on, warnings of the container are noted, but for those that whole films cause.
   void listenTo(const AVFormatContext& container) noexcept { container_ = &container; }
   // In whatever words: it has passed over bytes, or over a segment of a DASH film, whose opening cannot be seen here.
   [[nodiscard]] bool containerWarned() const noexcept { return container_warned_; }

@@ -7,14 +7,21 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+
+extern "C" {
+#include <libavformat/avformat.h>
+}
 
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "drivers/ffmpeg/network_error.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
 namespace {
 
+using ffmpeg::LibraryWords;
 using test::ClipTrack;
 using test::makeClip;
 using test::TemporaryFolder;
@@ -182,6 +189,17 @@ TEST(FfmpegSource, ASegmentedFilmWhosePicturesLastLongIsWhole) {
     EXPECT_EQ(readAll(*source).size(), 25U) << name;
     EXPECT_EQ(source->missing(), Duration(0)) << name;
   }
+}
+
+TEST(LibraryWords, WhatFfmpegSaysOfWholeFilmsIsNoDamage) {
+  const std::unique_ptr<AVFormatContext, void (*)(AVFormatContext*)> container(avformat_alloc_context(),
+                                                                               avformat_free_context);
+  LibraryWords words;
+  words.listenTo(*container);
+  av_log(container.get(), AV_LOG_WARNING, "Could not find codec parameters for stream %d (Subtitle)\n", 2);
+  EXPECT_FALSE(words.containerWarned());
+  av_log(container.get(), AV_LOG_WARNING, "%s\n", "a part was passed over");
+  EXPECT_TRUE(words.containerWarned());
 }
 
 }  // namespace
