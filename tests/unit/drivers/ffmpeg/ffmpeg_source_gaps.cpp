@@ -25,6 +25,7 @@ using ffmpeg::LibraryWords;
 using test::ClipTrack;
 using test::makeClip;
 using test::TemporaryFolder;
+using testing::AnyOf;
 using testing::HasSubstr;
 
 const ClipTrack kTwoSeconds{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 24, .frames = 48};
@@ -131,7 +132,8 @@ TEST(FfmpegSource, TellsALongTimeWithoutAPictureAtASteadyRate) {
   EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
 }
 
-// Three segments of 1 s, the second of which is gone.
+// Three segments of 1 s, the second of which is gone. FFmpeg 7.1 opens segments by the callback that is told of them,
+// 5.1 by itself: then the gap is told.
 TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
   TemporaryFolder folder;
   const std::string make = "cd '" + folder / "" +
@@ -141,15 +143,17 @@ TEST(FfmpegSource, TellsThatASegmentOfADashFilmIsGone) {
   for (const std::size_t pictures : {30U, 20U}) {
     if (pictures < 30) std::filesystem::remove(folder / "chunk-stream0-00002.m4s");
     const auto source = makeFfmpegSource();
-    ASSERT_TRUE(source->open(folder / "a.mpd").has_value());
     testing::internal::CaptureStderr();
+    ASSERT_TRUE(source->open(folder / "a.mpd").has_value());
     EXPECT_EQ(readAll(*source).size(), pictures);
     EXPECT_NEAR(toSeconds(source->missing()), pictures < 30 ? 1 : 0, 0.05);
     ASSERT_TRUE(source->seek(mediaTime(2.5)).has_value());
     readAll(*source);
     const std::string told = testing::internal::GetCapturedStderr();
     if (pictures == 30) EXPECT_EQ(told, "");
-    else EXPECT_THAT(told, testing::EndsWith("a.mpd: 1.0 s at 0.8 s are missing: a part of it cannot be read\n"));
+    else
+      EXPECT_THAT(told, AnyOf(HasSubstr("chunk-stream0-00002.m4s cannot be opened and is left out\n"),
+                              HasSubstr("a.mpd: 1.0 s at 0.8 s are missing: a part of it cannot be read\n")));
   }
 }
 
