@@ -11,13 +11,24 @@
 namespace relievo {
 namespace {
 
+// Calls `compare` for each sample and the direction, left or up, in which there are `reach` others.
+template <class Compare>
+void compareBack(const Frame& frame, int reach, Compare compare) {
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 0; c < frame.width; ++c) {
+      if (c >= reach) compare(c, r, 1, 0);
+      if (r >= reach) compare(c, r, 0, 1);
+    }
+  }
+}
+
 // True if the lower byte continues where the upper one changes by one: on a slope it does nearly everywhere, beside an
 // unrelated colour hardly ever.
 bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept {
   constexpr std::uint64_t kLeast = 32;
   constexpr int kMostStep = 64;
   std::uint64_t changes = 0, carried = 0;
-  const auto compare = [&](int c, int r, int left, int up) {
+  compareBack(frame, 1, [&](int c, int r, int left, int up) {
     const auto step = [&](std::size_t part) {
       return static_cast<int>(partAt(frame, part, c, r)) - static_cast<int>(partAt(frame, part, c - left, r - up));
     };
@@ -25,13 +36,7 @@ bool carries(const Frame& frame, std::size_t upper, std::size_t lower) noexcept 
     if (std::abs(rise) != 1) return;
     ++changes;
     if (std::abs(256 * rise + step(lower)) <= kMostStep) ++carried;
-  };
-  for (int r = 0; r < frame.height; ++r) {
-    for (int c = 0; c < frame.width; ++c) {
-      if (c > 0) compare(c, r, 1, 0);
-      if (r > 0) compare(c, r, 0, 1);
-    }
-  }
+  });
   // For unrelated bytes 3 % would; the rest of a depth's changes are steep slopes or edges.
   return carried >= kLeast && 10 * carried >= changes;
 }
@@ -42,19 +47,13 @@ bool isNumber(const Frame& frame) noexcept {
   constexpr int kJump = 96, kMostBend = 64;
   constexpr std::uint64_t kLeast = 256;
   std::uint64_t jumps = 0, smooth = 0;
-  const auto compare = [&](int c, int r, int left, int up) {
+  compareBack(frame, 2, [&](int c, int r, int left, int up) {
     const auto number = [&](int i) { return static_cast<int>(numberAt(frame, c - i * left, r - i * up)); };
     const int here = number(0), before = number(1), first = number(2);
     if (std::abs((here & 0xff) - (before & 0xff)) < kJump) return;
     ++jumps;
     smooth += std::abs(here - 2 * before + first) <= kMostBend ? 1 : 0;
-  };
-  for (int r = 0; r < frame.height; ++r) {
-    for (int c = 0; c < frame.width; ++c) {
-      if (c > 1) compare(c, r, 1, 0);
-      if (r > 1) compare(c, r, 0, 1);
-    }
-  }
+  });
   return jumps >= kLeast && 2 * smooth >= jumps;
 }
 
