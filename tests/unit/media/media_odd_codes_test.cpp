@@ -7,6 +7,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "app/media/reading/known_kind.h"
 #include "tests/support/film/clip_maker.h"
@@ -250,6 +252,19 @@ TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
     EXPECT_EQ(test::sampleAt(film.pair.color, 0, 33, 44), photo(0, 33, 44, 0)) << depth.pix_fmt;
     EXPECT_TRUE(film.info.reading.doubts.empty()) << film.info.reading.doubts.front();
   }
+}
+
+TEST(OddCodes, EveryKindsCalibrationIsInTheWordsOfTheCommandLine) {
+  std::istringstream lines(kindsText());
+  std::string name, rest;
+  int kinds = 0;
+  while (lines >> name && std::getline(lines, rest)) {
+    const KnownKind* const kind = findKind(name);
+    ASSERT_NE(kind, nullptr) << name;
+    EXPECT_TRUE(parseCalibration(kind->calibration)) << name << ": " << kind->calibration;
+    ++kinds;
+  }
+  EXPECT_GT(kinds, 20);
 }
 
 }  // namespace

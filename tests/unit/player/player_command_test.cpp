@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/player/control/command.h"
+#include "app/player/control/verb_table.h"
 #include "tests/support/command_words.h"
 
 namespace relievo {
@@ -17,7 +18,8 @@ using V = PlayerVerb;
 
 TEST(Command, EachHasWordsThatReadBackAsItself) {
   std::set<std::string> all;
-  for (int verb = 0; verb <= static_cast<int>(V::LoopAB); ++verb) {
+  for (std::size_t verb = 0; verb < verbTable().size(); ++verb) {
+    ASSERT_EQ(verbTable()[verb].verb, static_cast<V>(verb)) << "rows in the order of PlayerVerb";
     for (const double value : {10.0, -0.5}) {
       PlayerCommand command{static_cast<V>(verb), 0};
       const std::set<V> stepped{V::SeekBy,       V::DepthBy,         V::ScreenBy,  V::ZoomBy,        V::VolumeBy,

@@ -17,6 +17,7 @@ TEST(StereoWord, EveryLayoutIsReadByItsName) {
     EXPECT_EQ(settings.layout, layout);
     EXPECT_FALSE(settings.full);
   }
+  EXPECT_STREQ(name(static_cast<StereoLayout>(kStereoLayouts)), "") << "kStereoLayouts leaves out a layout";
 }
 
 TEST(StereoWord, VariantsChangeWhatTheyNameAlone) {

@@ -48,6 +48,11 @@ TEST_F(Films, AreFoundInAFolderAndItsFoldersInNaturalOrder) {
   EXPECT_THAT(titles(filmsBelow(place())), ElementsAre(":9", ":10", "a:1", "a/deep:3", "b:2"));
 }
 
+TEST_F(Films, ScansAndBareVideoStreamsAreFilms) {
+  for (const char* name : {"1.sens", "2.klg", "3.hevc", "4.m2v", "5.sen"}) file(name);
+  EXPECT_THAT(titles(filmsBelow(place())), ElementsAre(":1", ":2", ":3", ":4"));
+}
+
 // A stick has photos too; they are no films, and hide none.
 TEST_F(Films, ManyPicturesBesideThemHideNone) {
   file("film.mkv");
