@@ -122,7 +122,12 @@ class PictureFileDecoder final : public VideoDecoder {
         countDamaged();
         continue;
       }
-      frame = frameOf(*picture);
+      auto decoded = frameOf(*picture);
+      if (!decoded) {
+        countDamaged();
+        continue;
+      }
+      frame = std::move(*decoded);
       frame.pts = pts;
       frame.duration = period_;
       return Progress::Picture;
@@ -148,11 +153,13 @@ class PictureFileDecoder final : public VideoDecoder {
     return reading;
   }
 
-  Frame frameOf(const FilePicture& picture) {
+  // nullopt for a picture of fewer components than the film's first one.
+  std::optional<Frame> frameOf(const FilePicture& picture) {
     if (!picture.frame.empty()) return picture.frame;
     if (!reading_) reading_ = readingOf(picture);
     if (!reading_->gray && picture.components == 3) return colorFrame(picture);
     const auto step = static_cast<std::size_t>(picture.components);
+    if (reading_->component >= step) return std::nullopt;
     Codes codes(picture.samples.size() / step);
     bool beyond = false;
     for (std::size_t i = 0; i < codes.size(); ++i) {

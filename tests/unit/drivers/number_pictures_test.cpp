@@ -290,6 +290,24 @@ TEST(Npy, PointsAreTheirDistances) {
   }
 }
 
+TEST(Npy, APictureOfFewerComponentsThanTheFirstIsLeftOut) {
+  const test::TemporaryFolder folder;
+  std::string cloud;
+  for (std::size_t r = 0; r < kRows; ++r) {
+    for (std::size_t c = 0; c < kCols; ++c) {
+      const double z = slope(r, c), x = z * (static_cast<double>(c) - 11) / 30,
+                   y = z * (static_cast<double>(r) - 8) / 30;
+      for (const double part : {x, y, z}) cloud += bytesOf(static_cast<float>(part), false);
+    }
+  }
+  write(folder / "d0.npy", npy("<f4", false, shape() + ", 3", cloud));
+  write(folder / "d1.npy", npy("<f4", false, shape(), numbers<float>(false, false)));
+  write(folder / "d2.npy", npy("<f4", false, shape() + ", 3", cloud));
+  const DecodedFilm film = decodeFilm(folder / "d%d.npy");
+  ASSERT_EQ(film.frames.size(), 2u);
+  expectValues(film.frames[1], slope);
+}
+
 TEST(Npy, OtherArraysAreRefused) {
   const test::TemporaryFolder folder;
   const std::string bytes = numbers<float>(false, false);
