@@ -143,7 +143,10 @@ class Falcon final : public HapticDevice {
     if (!reply) return std::unexpected(reply.error());
     if (*reply) follow(**reply);
     else gate_.skip();
-    if (unhomed_ >= kFirmHomed) return fail(ErrorCode::Lost, "the Falcon has lost its zero; home it again");
+    if (unhomed_ >= kFirmHomed) {
+      static_cast<void>(port_->post(encode(Command{.green = true})));  // no force
+      return fail(ErrorCode::Lost, "the Falcon has lost its zero; home it again");
+    }
     if (auto alive = session_.listened(reply->has_value()); !alive) return std::unexpected(alive.error());
     return sample_;
   }

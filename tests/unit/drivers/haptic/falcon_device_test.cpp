@@ -155,6 +155,7 @@ TEST_F(FalconDevice, WithoutItsZeroItIsLost) {
     }
   }
   EXPECT_LE(ticks, 5);
+  EXPECT_EQ(model.last().motors, (falcon::Words{})) << "no force from the moment of the loss";
   device->close();
   EXPECT_FALSE(model.pushes(clock_.now()));
 }
