@@ -173,7 +173,8 @@ std::string tomlOf(const std::vector<std::string>& words) {
   return text + "]";
 }
 
-std::string withNumber(const std::string& text, const std::string& table, const std::string& key, double value) {
+std::optional<std::string> withNumber(const std::string& text, const std::string& table, const std::string& key,
+                                      double value) {
   char line[128];
   std::snprintf(line, sizeof line, "%s = %.6g", key.c_str(), value);
   std::vector<std::string> lines;
@@ -197,17 +198,31 @@ std::string withNumber(const std::string& text, const std::string& table, const 
   }
   std::string result;
   for (const std::string& each : lines) result += each + "\n";
-  return result;
+  toml::table wanted = parsed;
+  wanted.emplace<toml::table>(table);
+  wanted[table].as_table()->insert_or_assign(key, *toml::parse(line).get(key));
+  try {
+    if (toml::parse(result) == wanted) return result;
+  } catch (const toml::parse_error&) {
+    return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key, double value) {
   const auto text = readWholeFile(path, FileSize::Settings, "cannot be read");
   if (!text && text.error().os_error != ENOENT) return failOn(path, text.error());
+  const auto edited = withNumber(text.value_or(""), table, key, value);
+  if (!edited) {
+    return failOn(path + ": " + table,
+                  {ErrorCode::Unsupported, 0,
+                   "the table is written inline; write it as [table] and lines below, then try again"});
+  }
   std::error_code none;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path(), none);
   auto file = AtomicFile::create(path);
   if (!file) return failOn(path, file.error());
-  file->write(withNumber(text.value_or(""), table, key, value));
+  file->write(*edited);
   if (auto written = file->commit(); !written) return failOn(path, written.error());
   return {};
 }

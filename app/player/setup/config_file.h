@@ -50,9 +50,9 @@ void applyLogLevels(const FileConfig& config);
 [[nodiscard]] std::string tomlOf(const std::vector<std::string>& words);
 
 // The file's text with one number set and everything else unchanged, comments included. `text` is TOML that
-// `loadConfig` has read.
-[[nodiscard]] std::string withNumber(const std::string& text, const std::string& table, const std::string& key,
-                                     double value);
+// `loadConfig` has read; nullopt for a table that is written inline.
+[[nodiscard]] std::optional<std::string> withNumber(const std::string& text, const std::string& table,
+                                                    const std::string& key, double value);
 
 // The same in the file itself; creates the file and its folder if they are missing.
 [[nodiscard]] Outcome<void> setNumber(const std::string& path, const std::string& table, const std::string& key,

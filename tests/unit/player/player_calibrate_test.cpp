@@ -122,5 +122,14 @@ TEST_F(Config, ANumberIsSetAndAllElseStays) {
             "[falcon]\ncounts_per_nm = 9000\nfirmware = \"f\"\n");
 }
 
+TEST_F(Config, AnInlineTableIsNotSpoiled) {
+  for (const char* text : {"falcon = { firmware = \"f\" }\n", "falcon.firmware = \"f\"\n",
+                           "falcon = { firmware = \"f\", counts_per_nm = 6000 }\n"}) {
+    const std::string path = write(text);
+    EXPECT_EQ(setNumber(path, "falcon", "counts_per_nm", 9000).error().error.code, ErrorCode::Unsupported) << text;
+    EXPECT_EQ(loadConfig(path)->falcon_firmware, "f");
+  }
+}
+
 }  // namespace
 }  // namespace relievo
