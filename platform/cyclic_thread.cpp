@@ -220,8 +220,8 @@ struct CyclicThread::Run {
     const ThreadUsage before = threadUsage();
     runCycles(clock, period, task, statistics, stop);
     const ThreadUsage after = threadUsage();
-    statistics.page_faults.store(after.page_faults - before.page_faults, std::memory_order_relaxed);
-    statistics.allocations.store(after.allocations - before.allocations, std::memory_order_relaxed);
+    count(statistics.page_faults, after.page_faults - before.page_faults);
+    count(statistics.allocations, after.allocations - before.allocations);
   }
 };
 
@@ -242,13 +242,12 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
   auto stack = Stack::create(config.stack_bytes);
   if (!stack) return std::unexpected(stack.error());
 
-  auto statistics = std::make_unique<CyclicStatistics>();
   auto run = std::unique_ptr<Run>(new Run{
-      .clock = clock_, .task = task, .statistics = *statistics, .period = config.period, .stack = std::move(*stack)});
+      .clock = clock_, .task = task, .statistics = *statistics_, .period = config.period, .stack = std::move(*stack)});
   std::strncpy(run->name.data(), config.name, kNameBytes - 1);
   const bool code_locked = lockAndTouchCode().has_value();
   const bool run_locked = lockAndTouch(run.get(), sizeof *run).has_value();
-  const bool statistics_locked = lockAndTouch(statistics.get(), sizeof *statistics).has_value();
+  const bool statistics_locked = lockAndTouch(statistics_.get(), sizeof *statistics_).has_value();
   if (!(code_locked && run_locked && statistics_locked && run->stack.locked())) {
     log(LogLevel::Warning, "cyclic", "%s: memory could not be locked; raise LimitMEMLOCK or grant CAP_IPC_LOCK",
         config.name);
@@ -271,10 +270,9 @@ Result<Scheduler> CyclicThread::start(const CyclicConfig& config, CyclicTask& ta
   if (error != 0) {
     return fail(ErrorCode::Exhausted, "the system cannot create another thread; stop other programs", error);
   }
-  statistics->scheduler.store(scheduler, std::memory_order_relaxed);
-  statistics->stack_bytes = run->stack.bytes();
-  statistics->other_bytes = sizeof *run + sizeof *statistics;
-  statistics_ = std::move(statistics);
+  statistics_->scheduler.store(scheduler, std::memory_order_relaxed);
+  statistics_->stack_bytes = run->stack.bytes();
+  statistics_->other_bytes = sizeof *run + sizeof *statistics_;
   run_ = std::move(run);
   return scheduler;
 }
@@ -283,7 +281,7 @@ void CyclicThread::stop() noexcept {
   if (!running()) return;
   run_->stop.store(true, std::memory_order_release);
   ::pthread_join(run_->thread, nullptr);
-  statistics_->stack_used_bytes = run_->stack.used();
+  statistics_->stack_used_bytes = std::max(statistics_->stack_used_bytes, run_->stack.used());
   run_.reset();
 }
 

@@ -38,18 +38,18 @@ struct CyclicConfig {
   std::size_t stack_bytes = 128 * 1024;  // locked and touched; room for the libraries' thread-local data is added
 };
 
-// Written by the loop; readable from any thread at any time.
+// Written by the loop, over all of a thread's runs; readable from any thread at any time.
 struct CyclicStatistics {
   Histogram wakeup;  // woken - scheduled
   Histogram work;    // from waking to the return of `loop`
   std::atomic<std::uint64_t> cycles{0};
   std::atomic<std::uint64_t> overruns{0};     // cycles skipped because an earlier one's work had not ended
-  std::atomic<std::uint64_t> page_faults{0};  // of the thread, from the first cycle to the last; set at the end
+  std::atomic<std::uint64_t> page_faults{0};  // of the thread, from a run's first cycle to its last; added at its end
   std::atomic<std::uint64_t> allocations{0};  // likewise
   std::atomic<Scheduler> scheduler{Scheduler::Other};
   // Memory held for the thread while it runs: its stack; its state and statistics.
   std::size_t stack_bytes = 0, other_bytes = 0;
-  std::size_t stack_used_bytes = 0;  // the most used at any time; set at the end
+  std::size_t stack_used_bytes = 0;  // the most used at any time; set at a run's end
 };
 
 // Runs the loop on the calling thread until the task returns Stop or `stop` is set. On a ManualClock it runs in
@@ -74,7 +74,7 @@ class CyclicThread {
   void stop() noexcept;
 
   [[nodiscard]] bool running() const noexcept { return run_ != nullptr; }
-  // The statistics of the current or the last run; each `start` makes new ones.
+  // Of all runs since the object was made.
   [[nodiscard]] const CyclicStatistics& statistics() const noexcept { return *statistics_; }
 
  private:

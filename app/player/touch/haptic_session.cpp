@@ -128,10 +128,6 @@ Result<void> HapticSession::run() {
     next_tick_ = clock_.now();
     return {};
   }
-  const CyclicStatistics& ended = thread_.statistics();  // of the run that a lost device ended; else all zero
-  before_.overruns += ended.overruns;
-  before_.allocations += ended.allocations;
-  before_.page_faults += ended.page_faults;
   CyclicConfig config;
   config.name = "relievo-haptic";
   config.period = period_;
@@ -222,9 +218,9 @@ HapticSummary HapticSession::summary() const {
   s.rate_hz = 1.0 / toSeconds(period_);
   s.ticks = counters.ticks;
   s.contact_ticks = counters.contact_ticks;
-  s.overruns = before_.overruns + cyclic.overruns;
-  s.allocations = before_.allocations + cyclic.allocations;
-  s.page_faults = before_.page_faults + cyclic.page_faults;
+  s.overruns = cyclic.overruns;
+  s.allocations = cyclic.allocations;
+  s.page_faults = cyclic.page_faults;
   s.update = times(counters.update);
   s.wakeup = times(cyclic.wakeup);
   if (const Histogram* const told = device_->contactDelays()) s.contact_told = times(*told);

@@ -130,9 +130,6 @@ class HapticSession {
   HapticTask* task_ = nullptr;  // in the arena
   bool new_scene_ = true;
   CyclicThread thread_;
-  struct {
-    std::uint64_t overruns = 0, allocations = 0, page_faults = 0;
-  } before_;                 // of earlier threads, each ended by a lost device
   MonotonicTime next_tick_;  // for ByHand
   std::uint64_t tick_index_ = 0;
 };
