@@ -65,6 +65,14 @@ void HapticTask::changeScene(TouchMethod& method, const DisplayVolume& volume, c
   stale_ = false;
 }
 
+void HapticTask::forgetWindows() noexcept {
+  for (int slot = 0; slot < 3; ++slot) {
+    windows_.back() = {};
+    windows_.publish();
+    windows_.refresh();
+  }
+}
+
 LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   bump(counters_.ticks);
   noteLate(cycle);

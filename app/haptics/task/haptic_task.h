@@ -61,6 +61,8 @@ class HapticTask final : public CyclicTask {
   // is filled again (see TripleBuffer).
   [[nodiscard]] SurfaceWindow& windowToFill() noexcept { return windows_.back(); }
   void publishWindow() noexcept { windows_.publish(); }
+  // Releases the frames of all windows, while no tick runs.
+  void forgetWindows() noexcept;
 
   // For the picture's thread: fetches the newest state; true if it is newer than the last one.
   [[nodiscard]] bool refreshFinger() noexcept { return finger_.refresh(); }

@@ -142,6 +142,7 @@ Result<void> HapticSession::run() {
 void HapticSession::halt() noexcept {
   thread_.stop();
   if (device_ != nullptr) device_->close();
+  if (task_ != nullptr) task_->forgetWindows();
   running_ = false;
   opened_ = false;
 }
@@ -150,6 +151,7 @@ void HapticSession::rest() noexcept {
   if (running_) {
     thread_.stop();
     device_->stop();
+    task_->forgetWindows();
     running_ = false;
   }
   new_scene_ = true;

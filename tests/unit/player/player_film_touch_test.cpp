@@ -64,6 +64,19 @@ class FilmTouchTest : public testing::Test {
   std::optional<FilmTouch> touch_;
 };
 
+// A closed film's decoder gets its memory back.
+TEST_F(FilmTouchTest, NoFrameIsHeldAtRest) {
+  make();
+  DepthAround depth = planeAt(1);
+  const std::weak_ptr<const void> held = depth.present.owner;
+  startOn(depth);
+  goOn(10);
+  depth = {};
+  EXPECT_FALSE(held.expired());
+  touch_->rest();
+  EXPECT_TRUE(held.expired());
+}
+
 TEST_F(FilmTouchTest, TheDeviceTicksFromStartToRest) {
   make();
   EXPECT_EQ(touch_->fingers()[0].device(), "");
