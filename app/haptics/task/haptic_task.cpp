@@ -115,10 +115,9 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   state.contact = touch.contact;
   counters_.update.add(clock_.now() - started);
 
-  const auto written = device_.write(state.force_n);
-  if (!written) failed(written.error(), cycle.woken);
   primed_ = true;
   last_woken_ = cycle.woken;
+  if (const auto written = device_.write(state.force_n); !written) failed(written.error(), cycle.woken);
 
   method_->upkeep(window, state.media_time);
   count(state);

@@ -197,6 +197,21 @@ TEST_F(HapticTaskTest, AForceThatCouldNotBeWrittenIsTold) {
   EXPECT_EQ(faults(), std::vector{HapticFault::Kind::DeviceLost});
 }
 
+// The time without the device is no time in which the force may rise.
+TEST_F(HapticTaskTest, TheForceOfADeviceThatWasLostInAWriteFadesInFromZero) {
+  publishPlane(20, 0, true);
+  press(2);
+  device_.next_write_error = ErrorCode::Lost;
+  tick();
+  clock_.advance(2s);
+  device_.close();
+  ASSERT_TRUE(device_.open() && device_.home() && device_.start());
+  device_.position = {0, 0, -49.9};  // 3.9 mm into the end of the device's range
+  task_->deviceIsBack();
+  tick();
+  EXPECT_LE(glm::length(device_.force), 0.05 + 1e-9) << "50 N/s";
+}
+
 // Records how often the device had been read and written when each function of the method was called.
 class Witness final : public TouchMethod {
  public:
