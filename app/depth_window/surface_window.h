@@ -34,7 +34,7 @@ struct SurfaceWindow {
   int count = 0;
   std::uint32_t epoch = 0;  // changes where the film is not continuous: opened, sought, looped
   ClockSample clock;        // rate 0: paused; the surface stands still and stays touchable
-  Duration carried{0};      // how far the surface is carried forward in time (CarriedWeights)
+  Duration carried{0};      // how far the surface is carried forward in time
   bool ended = false;       // no frame follows the last: holding it is right, not a lost feed
 };
 

@@ -132,7 +132,7 @@ class FilmFeed {
   const PairReader::Backends backends_;
   std::function<void(const FramePair&)> hear_live_;
   mutable std::atomic<bool> interrupted_{false};  // stops the reading of a playlist
-  mutable PairReader reader_;                     // used by the reader's side only, except `interrupt`
+  mutable PairReader reader_;                     // its calls for one thread are the reader's side's
   bool left_out_ = false;                         // likewise: the last argument of the reader's leaveOut
 
   mutable std::mutex mutex_;  // guards everything below

@@ -114,8 +114,8 @@ struct PairCounters {
 //
 // Two live sources are aligned by their sender's clock if they share one, else by their arrival times.
 //
-// Use from one thread, except `interrupt`, which any thread may call. `next` blocks while it reads and decodes. A
-// function that needs an open film returns InvalidState without one.
+// Use from one thread, except `interrupt` and `waitsForSource`, which any thread may call. `next` blocks while it reads
+// and decodes. A function that needs an open film returns InvalidState without one.
 //
 // Sound and subtitles are those of the colour's source that SourceOptions and `chooseTracks` choose. Sound and pictures
 // never wait for each other.

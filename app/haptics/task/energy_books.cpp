@@ -14,10 +14,10 @@ void EnergyBooks::tick(const glm::dvec3& device_mm, const glm::dvec3& spring_n, 
     // The proxy implied by the spring's force: h + F/K.
     const glm::dvec3 proxy_moved = moved + (spring_n - spring_) / stiffness_;
     scene_ += 0.5 * glm::dot(spring_ + spring_n, proxy_moved);
-    held_ns_ += sent_ * elapsed_s;
+    held_impulse_ += sent_ * elapsed_s;
     held_s_ += elapsed_s;
     if (moved != glm::dvec3(0)) {
-      const glm::dvec3 held = held_s_ > 0 ? held_ns_ / held_s_ : sent_;
+      const glm::dvec3 held = held_s_ > 0 ? held_impulse_ / held_s_ : sent_;
       const double artefact = glm::dot(held - 0.5 * (wanted_ + wanted_n), moved);
       artefact_ += artefact;
       open_artefact_ = std::clamp(open_artefact_ + artefact, 0.0, kMostOpenMj);
@@ -36,7 +36,7 @@ void EnergyBooks::tick(const glm::dvec3& device_mm, const glm::dvec3& spring_n, 
 
 void EnergyBooks::beginWay(const glm::dvec3& wanted_n) RELIEVO_RT {
   wanted_ = wanted_n;
-  held_ns_ = glm::dvec3(0);
+  held_impulse_ = glm::dvec3(0);
   held_s_ = 0;
 }
 

@@ -47,7 +47,7 @@ class EnergyBooks {
   glm::dvec3 last_device_mm_{0};
   glm::dvec3 spring_{0}, sent_{0};
   // At the last new position: the force wanted there; since then: the impulse sent.
-  glm::dvec3 wanted_{0}, held_ns_{0};
+  glm::dvec3 wanted_{0}, held_impulse_{0};
   double held_s_ = 0;
   double scene_ = 0;
   double artefact_ = 0;

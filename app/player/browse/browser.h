@@ -35,7 +35,7 @@ class Browser {
 
   // The list is shown from now on: looks for films.
   void open(LeftFilms left, MonotonicTime now);
-  // Call when a film is played: the search stops, and no posters are made.
+  // Call when a film is played: no new search begins, and no posters are made.
   void close();
   // Call once a round while the list is shown. True if `view` has changed.
   [[nodiscard]] bool attend(MonotonicTime now);

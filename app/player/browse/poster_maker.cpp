@@ -47,6 +47,7 @@ struct PosterMaker::Shared {
   }
   void threadMain();
   [[nodiscard]] std::optional<WishedPoster> nextWish();
+  [[nodiscard]] bool isUnwanted() const;
   [[nodiscard]] std::shared_ptr<const Poster> make(const WishedPoster& film);
   [[nodiscard]] std::shared_ptr<const Poster> find(const std::string& url) const;
 
@@ -115,11 +116,17 @@ std::optional<WishedPoster> PosterMaker::Shared::nextWish() {
   return std::nullopt;
 }
 
+// `open` forgets an interruption that came before it.
+bool PosterMaker::Shared::isUnwanted() const {
+  const std::scoped_lock lock(mutex);
+  return left || stopping;
+}
+
 std::shared_ptr<const Poster> PosterMaker::Shared::make(const WishedPoster& film) {
   options.url = film.url;
   options.depth_url = film.depth_url;
   auto poster = std::make_shared<Poster>();
-  if (reader.open(options)) {
+  if (reader.open(options) && !isUnwanted()) {
     poster->length_s = toSeconds(reader.info().duration);
     if (const auto picture = tellingPictureOf(reader)) poster->picture = posterOf(*picture);
   }
