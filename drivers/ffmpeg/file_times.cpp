@@ -180,16 +180,18 @@ void FileGaps::begin() noexcept {
   missing_.clear();
 }
 
-void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, const std::string& url) {
+void FileGaps::note(const Packet& packet, Duration length, Doubt doubt, unsigned losses, const std::string& url) {
   if (doubt > Doubt::Steady) {
     for (auto& [stream, other] : ends_) other.doubtful_until = other.time + kDoubtful;
   }
   if (!packet.dts || length <= Duration(0)) return;
-  auto& [end, doubtful_until] = ends_.try_emplace(packet.stream, End{*packet.dts, *packet.dts}).first->second;
+  auto& [end, doubtful_until, left] = ends_.try_emplace(packet.stream, End{*packet.dts, *packet.dts}).first->second;
   const Duration gap = *packet.dts - end;
-  if (gap > kWholeWithin && end < doubtful_until) {
+  const bool lost = gap > kWholeWithin && left < losses;
+  if (lost) ++left;
+  if (lost || (gap > kWholeWithin && end < doubtful_until)) {
     missing_[packet.stream] += gap;
-    if (doubt != Doubt::Reported && isTold(++gaps_)) {
+    if (!lost && isTold(++gaps_)) {
       log(LogLevel::Warning, "media", "%s: %.1f s at %.1f s are missing: a part of it cannot be read", url.c_str(),
           toSeconds(gap), toSeconds(end));
     }

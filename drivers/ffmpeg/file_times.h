@@ -46,9 +46,8 @@ class PacketLengths {
 
 enum class Doubt : std::uint8_t {
   None,
-  Steady,    // no sign of a loss, but the stream's rate does not explain a gap either
-  Damaged,   // FFmpeg has passed over bytes or parts
-  Reported,  // a part could not be opened, and the log says so
+  Steady,   // no sign of a loss, but the stream's rate does not explain a gap either
+  Damaged,  // FFmpeg has passed over bytes or parts
 };
 
 // What is missing within a film: FFmpeg passes over what it cannot read, such as a segment of a list.
@@ -56,10 +55,11 @@ class FileGaps {
  public:
   // At the beginning, or after a seek.
   void begin() noexcept;
-  // A gap counts as missing if a packet near it is in doubt: elsewhere a picture may just last longer. It is logged,
-  // unless its cause was; of many gaps, only the tenth, hundredth, .. `url` names the film in the log. A long gap in a
-  // steady stream is logged as well.
-  void note(const Packet& packet, Duration length, Doubt doubt, const std::string& url);
+  // A gap counts as missing if a packet near it is in doubt, or if it is a stream's first one since `losses` has grown:
+  // elsewhere a picture may just last longer. It is logged, unless a loss explains it, which was; of many gaps, only
+  // the tenth, hundredth, .. `url` names the film in the log. A long gap in a steady stream is logged as well.
+  // `losses`: of whole parts, since `begin` or since the film was opened.
+  void note(const Packet& packet, Duration length, Doubt doubt, unsigned losses, const std::string& url);
   // Of the stream that lacks most.
   [[nodiscard]] Duration missing() const noexcept;
 
@@ -67,6 +67,7 @@ class FileGaps {
   struct End {
     MediaTime time;
     MediaTime doubtful_until;  // by a packet before, of any stream
+    unsigned losses = 0;       // that have left their gap
   };
   std::map<int, End> ends_;  // of each stream's last packet, by decoding time
   std::map<int, Duration> missing_;

@@ -62,6 +62,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   url_ = url;
   opens_ = 0;
   lost_ = 0;
+  beginElsewhere();
   doubtful_ = false;
   doubtful_until_ = kNoByte;
   opened_ = false;
@@ -107,7 +108,6 @@ bool Input::isUnsure(std::int64_t place) const noexcept {
 }
 
 Doubt Input::doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept {
-  if (lost_ > 0) return Doubt::Reported;
   const bool broken = (packet.flags & AV_PKT_FLAG_CORRUPT) != 0;
   if (broken || packet.opaque != nullptr) return Doubt::Damaged;
   const bool steady = stream.avg_frame_rate.num > 0 && av_cmp_q(stream.avg_frame_rate, stream.r_frame_rate) == 0;
@@ -133,7 +133,8 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
   const int opened = self.openAny(context, file, url, flags, options);
-  if (opened < 0 && !self.watch_.cancelled()) self.noteLost(url);
+  if (opened >= 0) self.last_lost_.clear();
+  else if (!self.watch_.cancelled()) self.noteLost(url);
   return opened;
 }
 
@@ -145,8 +146,11 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg skips segments of a list that it cannot open. If it opens none, the refusal says it.
+// FFmpeg skips segments of a list that it cannot open; some it tries twice. If it opens none, the refusal says it.
 void Input::noteLost(const char* part) {
+  if (last_lost_ == part) return;
+  if (last_lost_.empty()) ++losses_;
+  last_lost_ = part;
   ++lost_;
   if (lost_ == 1) first_lost_ = part;
   if (opened_ && isTold(lost_)) tellLost(part);

@@ -37,10 +37,18 @@ class Input {
   [[nodiscard]] Result<Opened> open(const std::string& url);
   // Call before each read. Resets the number of files and addresses that the container may still open.
   void beginReading() noexcept { opens_ = 0; }
+  // Call for a seek: what was lost before it leaves no gap behind it.
+  void beginElsewhere() noexcept {
+    losses_ = 0;
+    last_lost_.clear();
+  }
   // As av_read_frame, of the container that was opened here.
   int readFrame(AVFormatContext& container, AVPacket& packet);
-  // Whether something is missing near a packet that was read here, as far as FFmpeg or a part's opening has told it.
+  // Whether something is missing near a packet that was read here, as far as FFmpeg has told it.
   [[nodiscard]] Doubt doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept;
+  // How often parts could not be opened, since the film was opened or sought. It was logged. Neighbours count as one,
+  // since they leave one gap.
+  [[nodiscard]] unsigned losses() const noexcept { return losses_; }
   // Whether FFmpeg has warned at the last read.
   [[nodiscard]] bool isDoubtful() const noexcept { return doubtful_; }
   [[nodiscard]] bool isPipe() const noexcept { return pipe_.valid(); }
@@ -65,7 +73,9 @@ class Input {
   int opens_ = 0;
   bool opened_ = false;
   std::string first_lost_;
-  unsigned lost_ = 0;  // parts that could not be opened
+  std::string last_lost_;  // empty once a part could be opened
+  unsigned lost_ = 0;      // parts that could not be opened
+  unsigned losses_ = 0;
   bool doubtful_ = false;
   std::int64_t doubtful_until_ = 0;  // the byte to which the container was read while it was opened, if it warned
   UniqueFd pipe_;                    // outlives the container that reads from it

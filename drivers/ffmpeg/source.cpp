@@ -212,7 +212,9 @@ class FfmpegSource final : public MediaSource {
     if (out.pts) *out.pts += offset;
     const Duration stated = durationFrom(packet.duration, stream.time_base);
     const Duration length = is_subtitle ? stated : lengths_.of(out, stated);
-    if (!address_.flows() && !is_subtitle) gaps_.note(out, length, input_.doubtOf(packet, stream), url_);
+    if (!address_.flows() && !is_subtitle) {
+      gaps_.note(out, length, input_.doubtOf(packet, stream), input_.losses(), url_);
+    }
     end_.note(out, length, (packet.flags & AV_PKT_FLAG_CORRUPT) != 0, packet.pos);
   }
 
@@ -234,6 +236,7 @@ class FfmpegSource final : public MediaSource {
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience, lateReading(address_.way));
     beginTimes();
+    input_.beginElsewhere();
     ahead_.clear();
     end_.seek(target);
     const bool to_beginning = target <= MediaTime{};

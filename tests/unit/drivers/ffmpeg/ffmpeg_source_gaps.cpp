@@ -178,6 +178,25 @@ TEST(FfmpegSource, TellsTheLossOfASegmentOfAnHlsFilmOnce) {
   }
 }
 
+// The second of seven segments is gone. Later a picture stands for 1.5 s.
+TEST(FfmpegSource, ALostSegmentExplainsOneGapAlone) {
+  TemporaryFolder folder;
+  const std::string make =
+      "cd '" + folder / "" +
+      "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=10:d=8 -vf \"select='not(between(n,42,56))'\" "
+      "-vsync vfr -c:v libx264 -g 10 -hls_time 1 -hls_list_size 0 -hls_playlist_type vod a.m3u8";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  std::filesystem::remove(folder / "a1.ts");
+  const auto source = makeFfmpegSource();
+  testing::internal::CaptureStderr();
+  ASSERT_TRUE(source->open(folder / "a.m3u8").has_value());
+  EXPECT_EQ(readAll(*source).size(), 55U);
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(told, HasSubstr("a1.ts cannot be opened"));
+  EXPECT_THAT(told, HasSubstr("for 1.5 s at 4.2 s there are no pictures: a still, or a part is missing\n"));
+  EXPECT_NEAR(toSeconds(source->missing()), 1, 0.05);
+}
+
 // A picture that stands for 1.5 s is told by the next one's time alone.
 TEST(FfmpegSource, ASegmentedFilmWhosePicturesLastLongIsWhole) {
   TemporaryFolder folder;
