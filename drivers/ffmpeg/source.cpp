@@ -212,10 +212,9 @@ class FfmpegSource final : public MediaSource {
     if (out.pts) *out.pts += offset;
     const Duration stated = durationFrom(packet.duration, stream.time_base);
     const Duration length = is_subtitle ? stated : lengths_.of(out, stated);
-    if (!address_.flows() && !is_subtitle) {
-      gaps_.note(out, length, input_.doubtOf(packet, stream), input_.losses(), url_);
-    }
     end_.note(out, length, (packet.flags & AV_PKT_FLAG_CORRUPT) != 0, packet.pos);
+    if (address_.flows() || is_subtitle) return;
+    gaps_.note(out, length, input_.doubtOf(packet, stream), input_.losses(), url_);
   }
 
   void beginTimes() noexcept {
@@ -239,11 +238,10 @@ class FfmpegSource final : public MediaSource {
     input_.beginElsewhere();
     ahead_.clear();
     end_.seek(target);
-    const bool to_beginning = target <= MediaTime{};
-    sought_ = !to_beginning;
-    if (to_beginning && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
+    sought_ = target > MediaTime{};
+    if (!sought_ && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
     // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
-    const AVStream& stream = *context_->streams[to_beginning ? earliest_stream_ : leading_stream_];
+    const AVStream& stream = *context_->streams[sought_ ? leading_stream_ : earliest_stream_];
     int sought = seekToKeyframe(stream, target);
     if (sought < 0) sought = seekToKeyframe(stream, std::min(target, lastSecond()));  // failed: too near the end
     if (sought >= 0) return {};
