@@ -36,6 +36,12 @@ int findStreams(AVFormatContext& context) {
   return found;
 }
 
+// FFmpeg passes over a part that a busy server refuses. So it is asked for again, at once and after a second.
+void askBusyServerAgain(AVDictionary*& options) {
+  av_dict_set(&options, "reconnect_on_http_error", "5xx", 0);
+  av_dict_set(&options, "reconnect_delay_max", "1", AV_DICT_DONT_OVERWRITE);
+}
+
 }  // namespace
 
 void FormatCloser::operator()(AVFormatContext* context) const noexcept {
@@ -140,7 +146,10 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
 
 int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options) {
   const std::string path = reads_files_ ? localPathOf(url) : "";
-  if (path.empty()) return open_file_(context, file, url, flags, options);
+  if (path.empty()) {
+    askBusyServerAgain(*options);
+    return open_file_(context, file, url, flags, options);
+  }
   const auto opened = openLocalFile(path, watch_);
   if (opened) *file = *opened;
   return opened ? 0 : codeOf(opened.error());

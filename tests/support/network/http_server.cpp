@@ -64,13 +64,14 @@ void HttpServer::answer(UniqueFd to) {
   const auto content = contentOf(folder_ + "/" + file);
   const std::size_t range = head.find("Range: bytes=");
   const std::size_t from = range == head.npos ? 0 : std::stoul(head.substr(range + 13));
-  const char* const status = !content || from > content->size() ? "404" : from > 0 ? "206" : "200";
+  const char* status = !content || from > content->size() ? "404" : from > 0 ? "206" : "200";
   {
     const std::scoped_lock lock(mutex_);
+    if (const auto found = busy.find(file); found != busy.end() && found->second-- > 0) status = "503";
     requests_.push_back("GET /" + file + " " + status);
   }
-  if (*status == '4') {
-    sendAll(to, "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+  if (*status != '2') {
+    sendAll(to, std::string("HTTP/1.1 ") + status + " No\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
     return;
   }
   std::string answer_head = std::string("HTTP/1.1 ") + status + " OK\r\nAccept-Ranges: bytes\r\nConnection: close\r\n";

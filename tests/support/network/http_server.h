@@ -28,6 +28,7 @@ class HttpServer {
 
   // Set these before the first request.
   std::map<std::string, Fault> faults;  // by file
+  std::map<std::string, int> busy;      // by file: how often the answer is 503
   double bytes_per_s = 0;               // 0: as fast as it goes
 
   [[nodiscard]] std::string url(const std::string& file) const;
@@ -49,7 +50,7 @@ class HttpServer {
   std::atomic<Duration> away_{Duration(0)};  // from the next connection on
   MonotonicTime away_until_{};
   std::atomic<MonotonicTime> fault_over_{MonotonicTime{}};
-  mutable std::mutex mutex_;  // guards the two below and `faults`
+  mutable std::mutex mutex_;  // guards the two below, `faults` and `busy`
   std::vector<std::string> requests_;
   std::list<std::thread> answers_;
   std::thread thread_;

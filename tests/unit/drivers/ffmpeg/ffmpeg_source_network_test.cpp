@@ -97,6 +97,14 @@ TEST_F(Playlists, ThatNameThemselvesAreAskedForABoundedNumberOfTimes) {
   EXPECT_LE(server.requests().size(), 1000u);
 }
 
+TEST_F(Playlists, PartsThatABusyServerRefusesAreAskedForAgain) {
+  test::HttpServer server(at(""));
+  server.busy["part.ts"] = 1;
+  write("film.m3u8", "part.ts");
+  EXPECT_EQ(packetsOf(server.url("film.m3u8")), 48u);
+  EXPECT_THAT(server.requests(), testing::IsSupersetOf({"GET /part.ts 503", "GET /part.ts 200"}));
+}
+
 // Formats that are lists of addresses, or that open ports, are allowed only in files.
 TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
   const test::HttpServer server(at(""));
