@@ -15,9 +15,11 @@
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
 #include "app/cli/progress_line.h"
+#include "app/cli/read_files.h"
 #include "app/media/film_folder.h"
 #include "drivers/registry.h"
 #include "platform/clock.h"
+#include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/plain_text.h"
 
@@ -128,10 +130,22 @@ Outcome<void> chooseDepth(Arguments& a) {
   return {};
 }
 
+// A painting is opened in the middle of the work, where nothing may wait for a pipe's writer or for a server.
+bool isOfFiles(const Painting& painting) {
+  const std::string path = localPathIn(painting.path);
+  const auto status = statusOf(path);
+  return !path.empty() && (!status || S_ISREG(status->st_mode) || S_ISDIR(status->st_mode));
+}
+
 Outcome<void> choosePaintings(Arguments& a) {
   if (a.paintings.empty()) return {};
   auto paintings = parsePaintings(a.paintings);
   if (!paintings) return failOn("--material " + a.paintings, paintings.error());
+  if (const auto other = std::ranges::find_if_not(*paintings, isOfFiles); other != paintings->end()) {
+    return failOn(other->path,
+                  {ErrorCode::Unsupported, 0,
+                   "a painting is a file of this machine, no pipe, device or address; make it a file first"});
+  }
   a.output.paintings = std::move(*paintings);
   return {};
 }

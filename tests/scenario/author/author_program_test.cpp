@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -102,6 +103,17 @@ TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
   EXPECT_EQ(said.exit_code, 1);
   EXPECT_THAT(said.err, HasSubstr("no depth in this source; give --depth SOURCE"));
   EXPECT_TRUE(made().empty());
+}
+
+// It would wait for what writes into the pipe, or for the server, in the middle of the work.
+TEST_F(AuthorFilm, ProgramTakesPaintingsFromFilesAlone) {
+  const std::string pipe = folder_ / "pipe.png";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& painting : {pipe, std::string("http://127.0.0.1:9/a.png"), std::string("/dev/zero")}) {
+    const auto said = run("--color @/color.mkv --depth @/depth.mkv -o @/out.mkv --material 0=" + painting);
+    EXPECT_EQ(said.exit_code, 1) << painting;
+    EXPECT_THAT(said.err, HasSubstr(painting + ": a painting is a file of this machine"));
+  }
 }
 
 TEST_F(AuthorFilm, ProgramsHelpNamesItsMainOptions) {
