@@ -54,6 +54,7 @@ std::string readFile(const std::string& thing, const std::string& path, const ch
 CalibrationSettings readCalibrationFile(const std::string& thing, const std::string& path) {
   auto settings = parseCalibration(readFile(thing, path, "cannot be read; give the path of a file, or KEY=VALUE,.."));
   if (!settings) throw WordFailure({thing, {ErrorCode::Corrupt, 0, settings.error().message}});
+  if (settings->empty()) throw WordFailure({thing, {ErrorCode::Corrupt, 0, "is empty; write KEY=VALUE in each line"}});
   return std::move(*settings);
 }
 

@@ -199,6 +199,16 @@ TEST(Options, ACalibrationFileThatIsMissingIsAFailureNotWrongUse) {
   EXPECT_THAT(parsed.err, HasSubstr("/nowhere/camera.txt"));
 }
 
+TEST(Options, ACalibrationFileThatSaysNothingIsRefused) {
+  const test::TemporaryFolder folder;
+  for (const char* text : {"", "\n", "# near = 250\n"}) {
+    std::ofstream(folder / "camera.txt") << text;
+    const Parsed parsed = parse({"play", "film.mkv", "--calibration", (folder / "camera.txt").c_str()});
+    ASSERT_FALSE(parsed.options) << text;
+    EXPECT_THAT(parsed.err, HasSubstr("camera.txt: is empty; write KEY=VALUE in each line"));
+  }
+}
+
 TEST(Options, HelpTeachesOnStdoutAndIsNoFailure) {
   const Parsed parsed = parse({"play", "--help"});
   ASSERT_FALSE(parsed.options);
