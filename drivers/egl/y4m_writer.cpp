@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <thread>
 
 #include "platform/unique_fd.h"
 
@@ -36,6 +38,17 @@ ErrorCode codeOf(int os_error) noexcept {
   return ErrorCode::Io;
 }
 
+// Without O_NONBLOCK, open(2) would wait for the reader of a pipe; the pictures then wait for it. A reader that is
+// started together with the player, as in `encode < pipe & relievo ..`, may open the pipe a moment later.
+UniqueFd openCapture(const std::string& path) noexcept {
+  constexpr int kLooks = 50;
+  for (int look = 0;; ++look) {
+    UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666));
+    if (fd.valid() || errno != ENXIO || look == kLooks) return fd;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
 }  // namespace
 
 Y4mWriter::Y4mWriter(std::FILE* file, int width, int height, double rate)
@@ -47,8 +60,7 @@ Y4mWriter::Y4mWriter(std::FILE* file, int width, int height, double rate)
                2 * static_cast<std::size_t>((width + 1) / 2) * static_cast<std::size_t>((height + 1) / 2)) {}
 
 Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int height, double rate) {
-  // Without O_NONBLOCK, open(2) would wait for the reader of a pipe; the pictures then wait for it.
-  UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666));
+  UniqueFd fd = openCapture(path);
   if (!fd.valid() && errno == ENXIO) {
     return fail(ErrorCode::Io, "no program reads this pipe; start its reader first", errno);
   }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the program refuses or cannot do, in one line and with its exit code.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include <array>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
+#include "platform/unique_fd.h"
 #include "tests/scenario/program/player_program.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/program.h"
@@ -61,6 +67,27 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
   EXPECT_EQ(piped.exit_code, 1) << piped.err;
   EXPECT_THAT(piped.err, HasSubstr("no program reads this pipe; start its reader first"));
   expectNothingLeft({"film.mkv", "pipe.y4m"});
+}
+
+// As where a shell starts both of them.
+TEST_F(PlayerProgram, TheReaderOfACaptureMayOpenItsPipeALittleLater) {
+  makeClip(at("film.mkv"), {color(3), depth(3)});
+  ASSERT_EQ(::mkfifo(at("pipe.y4m").c_str(), 0600), 0);
+  std::array<char, 65536> bytes{};
+  std::string read;
+  std::atomic<bool> ended{false};
+  std::thread reader([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));  // by then the player waits, or will soon
+    const UniqueFd pipe(::open(at("pipe.y4m").c_str(), O_RDONLY | O_NONBLOCK));
+    while (!ended) {
+      if (const auto got = ::read(pipe.get(), bytes.data(), bytes.size()); got > 0) read.append(bytes.data(), got);
+    }
+  });
+  const auto played = play(at("film.mkv"), "offscreen:" + at("pipe.y4m"));
+  ended = true;
+  reader.join();
+  EXPECT_EQ(played.exit_code, 0) << played.err;
+  EXPECT_THAT(read, testing::StartsWith("YUV4MPEG2 "));
 }
 
 // An @ that no rate follows is part of the file's name, for the guard as for the display.
