@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -38,6 +39,16 @@ void fillClosedStreams() noexcept {
     if (::fcntl(fd, F_GETFD) >= 0) continue;
     static_cast<void>(::open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY));  // the lowest number; output still fails
   }
+}
+
+// Within FFmpeg a list that names itself is opened again until no descriptor is left. The usual limit bounds the memory
+// for that: containers set a thousand times as many.
+void boundDescriptors() noexcept {
+  constexpr rlim_t kMost = 1024;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur <= kMost) return;
+  limit.rlim_cur = kMost;
+  ::setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 // A pipe or socket whose other end is closed: `relievo --help | head` has read enough.
@@ -84,6 +95,7 @@ int tell(const Failure& failure, int exit_code) {
 
 int runProgram(const char* name, const std::function<int()>& body) noexcept {
   fillClosedStreams();
+  boundDescriptors();
   setLogProgram(name);
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, not the end of the program
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error too

@@ -2,6 +2,7 @@
 // The last actions of a program, however it ends.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -36,6 +37,21 @@ TEST(ProgramDeathTest, AFileIsNoStreamThatWasClosed) {
   EXPECT_EXIT((::close(STDIN_FILENO), ::close(STDOUT_FILENO), ::close(STDERR_FILENO),
                std::_Exit(runProgram("relievo", opened))),
               testing::ExitedWithCode(5), "");
+}
+
+TEST(ProgramDeathTest, FewFilesAreOpenAtOnceWhateverIsAllowed) {
+  const auto look = [] {
+    rlimit limit{};
+    return ::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur <= 1024 ? 5 : 6;
+  };
+  const auto run = [&] {
+    rlimit limit{};
+    static_cast<void>(::getrlimit(RLIMIT_NOFILE, &limit));
+    limit.rlim_cur = limit.rlim_max;
+    static_cast<void>(::setrlimit(RLIMIT_NOFILE, &limit));
+    return runProgram("relievo", look);
+  };
+  EXPECT_EXIT(std::_Exit(run()), testing::ExitedWithCode(5), "");
 }
 
 TEST(ProgramDeathTest, AClosedOutputIsAFailure) {
