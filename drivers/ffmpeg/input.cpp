@@ -24,6 +24,8 @@ namespace {
 constexpr std::int64_t kNoByte = 0;
 constexpr std::int64_t kAllBytes = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
+constexpr Error kNoParts{ErrorCode::NotFound, 0,
+                         "it is a list, and none of its parts can be opened; get them, or the whole film in one file"};
 
 // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
 int findStreams(AVFormatContext& context) {
@@ -83,7 +85,9 @@ Result<Input::Opened> Input::open(const std::string& url) {
   const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
   av_dict_free(&options);
   if (opened < 0 && file != nullptr) closeLocalFile(file);
-  if (opened < 0) return std::unexpected(watch_.explain(refusal(*address, opened, words.last())));
+  if (opened < 0 && lost_ > 0 && !watch_.cancelled()) tellLost(first_lost_);
+  if (opened < 0)
+    return std::unexpected(watch_.explain(lost_ > 0 ? kNoParts : refusal(*address, opened, words.last())));
   const MonotonicTime arrival = watch_.now();
   opened_ = true;
   if (lost_ > 0) tellLost(first_lost_);
@@ -155,9 +159,9 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg skips segments of a list that it cannot open; some it tries twice. If it opens none, the refusal says it.
+// FFmpeg skips segments of a list that it cannot open; some it tries twice. A film that it opens itself is no part.
 void Input::noteLost(const char* part) {
-  if (last_lost_ == part) return;
+  if (last_lost_ == part || url_ == part) return;
   if (last_lost_.empty()) ++losses_;
   last_lost_ = part;
   ++lost_;
@@ -168,7 +172,9 @@ void Input::noteLost(const char* part) {
 void Input::tellLost(const std::string& part) const {
   if (lost_ == 1)
     log(LogLevel::Warning, "media", "%s: its part %s cannot be opened and is left out", url_.c_str(), part.c_str());
-  else log(LogLevel::Warning, "media", "%s: %u of its parts cannot be opened and are left out", url_.c_str(), lost_);
+  else
+    log(LogLevel::Warning, "media", "%s: %u of its parts, such as %s, cannot be opened and are left out", url_.c_str(),
+        lost_, part.c_str());
 }
 
 int Input::closeAny(AVFormatContext* context, AVIOContext* file) {

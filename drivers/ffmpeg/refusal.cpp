@@ -219,6 +219,9 @@ Error refusal(const Address& address, int code, const std::string& words) {
   }
   if (address.way == Way::File && isTooLargeY4m(localPathOf(address.url)))
     return {ErrorCode::Unsupported, 0, VideoDecoder::kTooLarge};
+  if (code == AVERROR(EMFILE) && address.way == Way::File && headOf(localPathOf(address.url)).starts_with("ffconcat")) {
+    return {ErrorCode::Corrupt, 0, "it is a list that names itself, or too many lists; name the films that are in it"};
+  }
   if (code == AVERROR_INVALIDDATA && address.way == Way::File && isText(headOf(localPathOf(address.url)))) {
     return {
         ErrorCode::Corrupt, 0,

@@ -2,6 +2,7 @@
 // Films with a hole in the middle: of bytes, or of a segment that is gone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -47,6 +48,29 @@ TEST(FfmpegSource, TellsThatAPartOfAListIsGone) {
   const std::string told = testing::internal::GetCapturedStderr();
   EXPECT_THAT(told, HasSubstr("list.m3u8: its part file:" + folder / "gone.ts"));
   EXPECT_EQ(std::ranges::count(told, '\n'), 1) << "told once: " << told;
+}
+
+TEST(FfmpegSource, TellsThatNoPartOfAListIsThere) {
+  TemporaryFolder folder;
+  writeFile(folder / "list.m3u8",
+            "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\ngone.ts\n#EXTINF:2,\naway.ts\n#EXT-X-ENDLIST\n");
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(openErrorOf(folder / "list.m3u8").message, HasSubstr("none of its parts can be opened"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gone.ts, cannot be opened"));
+}
+
+// Within FFmpeg, until no descriptor is left.
+TEST(FfmpegSource, AListThatNamesItselfIsToldToBeOne) {
+  TemporaryFolder folder;
+  writeFile(folder / "a.ffconcat", "ffconcat version 1.0\nfile a.ffconcat\n");
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &usual), 0);
+  rlimit few = usual;
+  few.rlim_cur = 64;
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+  const Error error = openErrorOf(folder / "a.ffconcat");
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_THAT(error.message, HasSubstr("a list that names itself"));
 }
 
 // The second half begins at the first one's time.
