@@ -153,6 +153,7 @@ Outcome<void> writeReport(const MeasureOptions& options) {
         options.tell(print("part %zu of %zu: ", i + 1, all.size()) + what);
       };
       const auto done = runMeasurement(measurement, part);
+      if (!done && done.error().thing.starts_with(options.out + "/")) return done;  // the others would fail there too
       if (!done && first_failure) first_failure = done;
     }
     for (const ChartEntry& chart : measurement.charts) sections += sectionOf(options.out, chart.name);

@@ -10,7 +10,7 @@ namespace relievo {
 
 // Runs every measurement that lacks a chart in the folder, then writes FOLDER/index.html: each chart with its title,
 // its reading and a link to its figures; the machine and the day. Failed measurements are reported at the end; the page
-// is still written with the other charts.
+// is still written with the other charts. A chart that cannot be written, as on a full disk, ends the report at once.
 [[nodiscard]] Outcome<void> writeReport(const MeasureOptions& options);
 
 }  // namespace relievo
