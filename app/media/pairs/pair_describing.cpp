@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Describes the depth of a film that is being opened: its size, its code and its calibration.
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/media/pairs/pair_film.h"
@@ -146,7 +148,8 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   }
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
-  info.reading.doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
+  auto doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
+  std::ranges::move(doubts, std::back_inserter(info.reading.doubts));
   if (!tagged) info.reading.doubts.push_back(print("its tag %s is left out: %s", kMaterialTag, tagged.error().message));
   if (material.refused() != nullptr) {
     info.reading.doubts.push_back(print("its material track is left out: %s", material.refused()));

@@ -48,7 +48,7 @@ struct Relief {
 
 // The option for codes that are distances although they were stated to be brightness.
 std::string likelyKind(const Frame& depth, const DepthCalibration& calibration) {
-  if (calibration.unit_mm || calibration.code != DepthCode::Luma) return kRange;
+  if (calibration.unit_mm || calibration.code != DepthCode::Luma || depth.value_per_code != 0) return kRange;
   const KnownKind* const kind = sensorKind(depth, CodeCount(depth));
   if (kind == nullptr) return kRange;
   return print("--as %s; the codes look like %s", kind->name, kind->what);
@@ -158,6 +158,40 @@ std::string doubtShape(const Frame& depth, const Frame& color) {
 }
 
 }  // namespace
+
+double nearerBelow(const Frame& depth, const DepthCalibration& calibration) {
+  constexpr int kMost = 64;  // rows of a third, and columns, that are examined
+  const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
+  const int third = depth.height / 3;
+  if (!field || third == 0) return 0;
+  const int step = 1 + (third - 1) / kMost, stride = 1 + (depth.width - 1) / kMost;
+  const auto mean_of = [&](int first) {
+    double sum = 0, count = 0;
+    for (int r = first; r < first + third; r += step) {
+      for (int c = 0; c < depth.width; c += stride) {
+        const double height = field->heightMm(c, r);
+        if (std::isnan(height)) continue;
+        sum += height;
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  const double nearer = mean_of(depth.height - third) - mean_of(0);
+  return std::isnan(nearer) ? 0 : nearer;
+}
+
+std::string nearEndLine(const DepthCalibration& calibration, bool by_floor, const std::string& black) {
+  const char *high = "the colour map's end", *low = "the colour map's beginning";
+  if (calibration.code == DepthCode::Luma) high = "bright", low = "dark";
+  if (calibration.code == DepthCode::Hue) high = "the end of hues beyond blue", low = "red";
+  const bool near_high = calibration.polarity == DepthPolarity::NearIsHigh;
+  const std::string line =
+      print("nothing says which end of the depth is near: %s is taken%s; if it is %s: --calibration polarity=%s",
+            near_high ? high : low, by_floor ? ", so that the view is nearer below than above, as most are" : "",
+            near_high ? low : high, near_high ? "near-low" : "near-high");
+  return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "");
+}
 
 std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
   std::vector<std::string> doubts;

@@ -15,4 +15,13 @@ namespace relievo {
 [[nodiscard]] std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration,
                                                 const Frame* color = nullptr);
 
+// How much nearer the lower third of the relief is than the upper one, as a share of its depth: most views show a
+// floor, a table or a road. Clearly if beyond kClearlyNearer. 0 if either third is holes.
+inline constexpr double kClearlyNearer = 0.15;
+[[nodiscard]] double nearerBelow(const Frame& depth, const DepthCalibration& calibration);
+
+// The line for a near end that nobody has stated: which is taken, and the option for the other. `by_floor`: because the
+// relief is nearer below then. `black`: the codes that are holes if near is dark; empty if none.
+[[nodiscard]] std::string nearEndLine(const DepthCalibration& calibration, bool by_floor, const std::string& black);
+
 }  // namespace relievo

@@ -2,10 +2,12 @@
 #include "app/media/reading/depth_meaning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
 #include "platform/print.h"
@@ -95,18 +97,6 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   return span;
 }
 
-// Either end of a colour map may be the near one.
-std::string otherEnd(const CalibrationLayers& layers) {
-  if (layers.find("polarity") != nullptr) return "";
-  return "near is taken to be at the end of the colour map; if it is at its beginning: --calibration polarity=near-low";
-}
-
-bool isAssumedNearHigh(const CalibrationChoice& choice) {
-  return std::any_of(choice.parts.begin(), choice.parts.end(), [](const CalibrationPart& part) {
-    return part.key == "polarity" && part.value == "near-high" && part.origin == CalibrationOrigin::AssumedTags;
-  });
-}
-
 // Gray, or bytes of a code, without lossy coding, whose name says disparity.
 bool isNamedDisparity(const DepthClues& clues, const Frame& look) {
   return clues.code == DepthCode::Luma && look.model != ColorModel::Yuv && !definesCodes(saidLayers(clues)) &&
@@ -135,6 +125,19 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   return count;
 }
 
+// Numbers are what their name says; else what makes the lower part of the view nearer, if that is clear; else what is
+// usual in their files. Distances do not begin at 0.
+DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
+                         const CalibrationLayers& layers) {
+  const auto named = clues.codec == "exr" ? false : namesDisparity(clues.path);
+  const auto seen = looksLikeDisparity(look, count);
+  if (named) return readFloats(look, count, *named || (areRelative(count) && seen.value_or(false)), layers);
+  const bool usual = clues.codec == "pfm" && !mayBeMetres(look, count);
+  DepthReading read = readFloats(look, count, seen.value_or(usual), layers);
+  read.unsure = seen != usual;
+  return read;
+}
+
 // Reads the pictures as the clues require; may add what they show to `layers`.
 DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                           std::span<const Frame> later, const HueSpan& span, CalibrationLayers& layers) {
@@ -147,17 +150,14 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
-    read.offer = otherEnd(layers);  // an entry of a colour map has no meaning by itself
+    // An entry of a colour map has no meaning by itself.
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, countOf(look, later), *clues.place.camera);
   } else if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {
     read = readFloats(look, countOf(look, later), true, layers);
   } else if (look.value_per_code != 0 && !isHeights(kind)) {
     scaleToCodes(layers, look.value_per_code);
-    const CodeCount count = countOf(look, later);
-    const bool named = namesDisparity("", clues.path);  // otherwise only the file format indicates it
-    const bool disparity = named || (namesDisparity(clues.codec, clues.path) && !mayBeMetres(look, count));
-    read = readFloats(look, count, disparity, layers);
+    read = readNumbers(clues, look, countOf(look, later), layers);
   } else if (kind == nullptr && isNamedDisparity(clues, look)) {
     read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
@@ -169,6 +169,49 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
   }
   if (!later.empty() && !read.why.empty()) read.why += print(", judged by %zu pictures", later.size() + 1);
   return read;
+}
+
+// The part of a calibration that decides which end is near.
+const CalibrationPart& nearEndOf(const CalibrationChoice& choice) {
+  const auto part = [&choice](const char* key) -> const CalibrationPart& {
+    return *std::ranges::find(choice.parts, key, &CalibrationPart::key);
+  };
+  const CalibrationPart &unit = part("unit"), &law = part("law"), &polarity = part("polarity");
+  if (unit.value != "none") return unit;
+  const bool told = polarity.origin == CalibrationOrigin::Default && certaintyOf(law.origin) == Certainty::Said;
+  return told ? law : polarity;
+}
+
+// Chooses the calibration. Where nothing states the near end, the one that makes the view nearer below is taken; where
+// it is a guess, or the view is clearly nearer above, a doubt says so.
+Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
+                                        DepthReading& read, std::vector<std::string>& doubts) {
+  auto choice = chooseCalibration(layers, look, clues.code);
+  if (!choice) return choice;
+  markGuesses(clues.tags, *choice);
+  const CalibrationOrigin by = nearEndOf(*choice).origin;
+  if (certaintyOf(by) == Certainty::Said) return choice;
+  DepthCalibration seen = choice->calibration;
+  if (!read.black.empty()) seen.invalid = CodeSet::parse(read.black).value_or(CodeSet());
+  const double nearer = nearerBelow(look, seen);
+  const bool upside_down = nearer < -kClearlyNearer;
+  if (certaintyOf(by) == Certainty::Likely) {
+    if ((!upside_down && !read.unsure) || read.offer.empty()) return choice;
+    doubts.push_back((upside_down ? "read so, the view is nearer above than below, as few are: " : "") + read.offer);
+    read.offer.clear();
+    return choice;
+  }
+  if (upside_down && by == CalibrationOrigin::Default) {
+    const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
+    layers.pictures["polarity"] = near_high ? "near-low" : "near-high";
+    if (near_high && !read.black.empty()) layers.pictures["invalid"] = read.black;
+    choice = chooseCalibration(layers, look, clues.code);
+    if (!choice) return choice;
+    markGuesses(clues.tags, *choice);
+  }
+  const bool by_floor = std::abs(nearer) > kClearlyNearer && by == CalibrationOrigin::Default;
+  doubts.push_back(nearEndLine(choice->calibration, by_floor, read.black));
+  return choice;
 }
 
 }  // namespace
@@ -206,9 +249,9 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
-  auto choice = chooseCalibration(layers, look, clues.code);
+  std::vector<std::string> doubts;
+  auto choice = chooseNearEnd(clues, look, layers, read, doubts);
   if (!choice) return std::unexpected(choice.error());
-  markGuesses(clues.tags, *choice);
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
@@ -228,10 +271,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
-  if (isAssumedNearHigh(meaning.calibration)) {
-    reading.offers.emplace_back(
-        "near is bright, as the film's maker assumed; if it is dark: --calibration polarity=near-low");
-  }
+  reading.doubts = std::move(doubts);
   return meaning;
 }
 

@@ -33,7 +33,7 @@ struct DepthClues {
 
 struct DepthMeaning {
   CalibrationChoice calibration;
-  FilmReading reading;  // without doubts
+  FilmReading reading;  // of its doubts, those about the near end
 };
 
 // The recording's kind: stated by the user; else by its file names, if its pictures have that kind's form; else

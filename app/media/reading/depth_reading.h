@@ -19,6 +19,8 @@ struct DepthReading {
   const KnownKind* kind = nullptr;  // as the codes show
   std::string why;                  // one line; empty if the picture revealed nothing
   std::string offer;                // one line; empty if there is no doubt
+  bool unsure = false;              // nothing but a custom speaks against `offer`
+  std::string black;                // of a film of brightness: the codes that are holes if near is dark; empty if none
 };
 
 // Whether a layer defines what a code is, so that the picture need not.
@@ -34,8 +36,7 @@ struct DepthReading {
 // True if any layer states one of the keys.
 [[nodiscard]] bool says(const CalibrationLayers& said, std::initializer_list<const char*> keys);
 
-// For codes that are brightness: finds the range of YUV that states none, whether black is a hole, and the words for
-// what cannot be known: the near end and the holes of a film.
+// For codes that are brightness: finds the range of YUV that states none, and whether black is a hole.
 [[nodiscard]] DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said);
 
 // The kind that `readCodes` will find, determined before the samples are put in its order. The unit of distances is

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/media/reading/depth_doubts.h"
 #include "platform/lower_case.h"
 #include "platform/print.h"
 
@@ -114,7 +115,7 @@ void scale(CalibrationSettings& settings, double value) {
 
 }  // namespace
 
-bool namesDisparity(std::string_view codec, std::string_view path) {
+std::optional<bool> namesDisparity(std::string_view path) {
   const std::string lower = lowerCase(path);
   std::string_view rest = lower;
   const auto names = [](std::string_view name, auto words) {
@@ -127,7 +128,20 @@ bool namesDisparity(std::string_view codec, std::string_view path) {
     if (names(name, std::array{"disp", "parallax", "inverse_depth", "invdepth", "inv_depth"})) return true;
     if (names(name, std::array{"depth", "dist", "zbuf"})) return false;
   }
-  return codec == "pfm";
+  return std::nullopt;
+}
+
+std::optional<bool> looksLikeDisparity(const Frame& depth, const CodeCount& count) {
+  const auto [low, high] = count.reach(kOutliers, 1, kTop);
+  DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
+  distances.codes = CodeSet::Range{low, std::max(high, low + 1)};
+  const double nearer = nearerBelow(depth, distances);
+  return std::abs(nearer) > kClearlyNearer ? std::optional(nearer < 0) : std::nullopt;
+}
+
+bool areRelative(const CodeCount& count) {
+  const auto [low, high] = count.reach(kOutliers, 1, kTop);
+  return high > kMostRatio * low;
 }
 
 bool saysDisparity(std::string_view path) {

@@ -2,6 +2,7 @@
 // Guesses what a film's floating-point numbers are: distances or disparities.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "app/media/reading/depth_reading.h"
@@ -9,8 +10,8 @@
 namespace relievo {
 
 // True if the path's last three names say disparity ("disp", "parallax"), false if they say distance ("depth", "dist",
-// "zbuf"); otherwise as is usual for the codec: PFM holds disparities, all others hold distances.
-[[nodiscard]] bool namesDisparity(std::string_view codec, std::string_view path);
+// "zbuf"), nullopt if they say neither.
+[[nodiscard]] std::optional<bool> namesDisparity(std::string_view path);
 
 // True if one of the path's last three names has the word disparity ("disp.png", "disparity/0001.png") and none behind
 // it says depth.
@@ -18,6 +19,12 @@ namespace relievo {
 
 // True if the numbers may be a room's distances in metres, and are hardly disparities in pixels: all from 0.1 to 16.
 [[nodiscard]] bool mayBeMetres(const Frame& depth, const CodeCount& count);
+
+// What the picture says of numbers that have no name: disparities or distances, whichever makes its lower part clearly
+// nearer than its upper one. Nullopt if neither does.
+[[nodiscard]] std::optional<bool> looksLikeDisparity(const Frame& depth, const CodeCount& count);
+// True if the largest number is so many times the smallest that 0 means no distance.
+[[nodiscard]] bool areRelative(const CodeCount& count);
 
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
 // millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows an arbitrary

@@ -96,11 +96,8 @@ DepthReading readHues(const Frame& depth, const CalibrationLayers& said, const K
   const bool apart = static_cast<double>(red) > kRedShare * static_cast<double>(count.lit) && 10 * beside < red;
   DepthReading reading;
   const bool unknown = kind == nullptr && said.find("polarity") == nullptr;
-  if (unknown) {
-    reading.offer =
-        "near is taken to be the red end of the hues, as RealSense and Depthkit have it; if it is far: "
-        "--calibration polarity=near-high; if hues are of 1/distance, red far: --as realsense-disparity";
-  }
+  if (unknown) reading.offer = "if hues are of 1/distance, red far: --as realsense-disparity";
+  if (record3d) reading.settings["polarity"] = "near-low";
   const bool realsense = kind != nullptr && std::string_view(kind->name).starts_with("realsense");
   if ((unknown || realsense) && !says(said, {"near", "far"})) {
     reading.offer += print("%sif the distances are known: --calibration near=MM,far=MM", unknown ? "; " : "");

@@ -223,7 +223,7 @@ void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlac
   if (place.kind != nullptr) return;
   place.origin = CalibrationOrigin::Name;
   if (place.camera) {
-    if (!namesDisparity(lowerCase(path.extension().string()) == ".pfm" ? "pfm" : "", path.string())) return;
+    if (!namesDisparity(path.string()).value_or(lowerCase(path.extension().string()) == ".pfm")) return;
     place.origin = CalibrationOrigin::FileBeside;
     place.why = print("%s has the cameras, %.4g mm apart", file.c_str(), place.camera->baseline_mm);
   } else if (hasView(path, folder, "disp1", "view1.png")) {

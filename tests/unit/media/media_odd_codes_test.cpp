@@ -189,8 +189,12 @@ TEST(OddCodes, AKinectsRawCodesWithoutAHoleAreOffered) {
     TemporaryFolder folder;
     makeClip(folder / "a.png",
              {track("png", "gray16be", [=](int, int c, int r, int) { return rounded(first + step * (c + r)); })});
-    const auto offers = openFilm({.url = folder / "a.png"}).info.reading.offers;
-    return offers.empty() ? "" : offers.front();
+    const FilmReading reading = openFilm({.url = folder / "a.png"}).info.reading;
+    std::string lines;
+    for (const auto& of : {reading.offers, reading.doubts}) {
+      for (const std::string& line : of) lines += line + "\n";
+    }
+    return lines;
   };
   EXPECT_NE(offersOf(450, 1).find("--as kinect-raw"), std::string::npos);
   EXPECT_EQ(offersOf(450, 4).find("--as kinect-raw"), std::string::npos) << "farther than a Kinect's codes";
@@ -250,7 +254,7 @@ TEST(OddCodes, OfTwoTracksTheGrayOneIsTheDepth) {
     ASSERT_FALSE(film.pair.depth.empty());
     EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
     EXPECT_EQ(test::sampleAt(film.pair.color, 0, 33, 44), photo(0, 33, 44, 0)) << depth.pix_fmt;
-    EXPECT_TRUE(film.info.reading.doubts.empty()) << film.info.reading.doubts.front();
+    EXPECT_EQ(film.info.reading.doubts.size(), depth.pix_fmt == "gray16le" ? 0U : 1U) << "which end is near";
   }
 }
 

@@ -113,7 +113,7 @@ TEST(Recordings, BrightnessBesideThePhotoIsFoundInGrayAndInRed) {
     const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
     EXPECT_NEAR(field.heightMm(kSceneCols / 2, kSceneRows / 2), 40 * 0.9999, 1.0) << name;
     EXPECT_NEAR(field.heightMm(kSceneCols - 4, 50), 40 * near_bright(kSceneCols - 4, 50), 1.0) << name;
-    EXPECT_THAT(seen.info.reading.offers, Contains(HasSubstr("polarity=near-low"))) << name;
+    EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("polarity=near-low"))) << name;
   }
 }
 
@@ -183,13 +183,14 @@ TEST(Recordings, HeightsAreOfferedWhereNothingTellsThemFromDistances) {
               DepthPolarity::NearIsHigh);
 }
 
-TEST(Recordings, HuesOfferTheirOtherEnd) {
+TEST(Recordings, HuesTellThatTheirNearEndIsAGuess) {
   TemporaryFolder folder;
   const Half hue{[](int c, int r) { return hueColor(0.1 + 0.8 * (distanceMm(c, r) - 900) / 1500); }};
   makeHalves(folder / "a.mp4", true, kPhoto, hue);
-  EXPECT_THAT(open({.url = folder / "a.mp4"}).info.reading.offers, Contains(HasSubstr("polarity=near-high")));
-  EXPECT_THAT(open({.url = folder / "a.mp4", .command_line = {{"polarity", "near-low"}}}).info.reading.offers,
-              IsEmpty());
+  EXPECT_THAT(open({.url = folder / "a.mp4"}).info.reading.doubts, Contains(HasSubstr("polarity=near-high")));
+  const FilmReading said = open({.url = folder / "a.mp4", .command_line = {{"polarity", "near-low"}}}).info.reading;
+  EXPECT_THAT(said.offers, IsEmpty());
+  EXPECT_THAT(said.doubts, IsEmpty());
 }
 
 // A blue ramp and a circle of hues may be a picture of anything, unless the name says depth.
@@ -212,7 +213,7 @@ TEST(Recordings, AColourMapWithoutColourIsFelt) {
   const FilmInfo found = make("a.png", jet);
   EXPECT_EQ(found.packing, Packing::DepthAlone);
   EXPECT_EQ(found.calibration.calibration.code, DepthCode::Jet);
-  EXPECT_THAT(found.reading.offers, Contains(HasSubstr("polarity=near-low")));
+  EXPECT_THAT(found.reading.doubts, Contains(HasSubstr("polarity=near-low")));
   EXPECT_FALSE(make("b.png", hueColor).has_depth);
   const FilmInfo told = open({.url = folder / "b.png", .packing = Packing::DepthAlone}).info;
   EXPECT_EQ(told.packing, Packing::DepthAlone) << "what is said wins over what the picture shows";
@@ -304,7 +305,7 @@ TEST(Recordings, HalvesOfAGifAreFoundAlthoughItsGrayIsMixed) {
   const Seen seen = open({.url = folder / "a.gif"});
   ASSERT_EQ(seen.failure, "");
   EXPECT_EQ(seen.info.packing, Packing::SideBySide);
-  EXPECT_THAT(seen.info.reading.doubts, IsEmpty());
+  EXPECT_THAT(seen.info.reading.doubts, ElementsAre(HasSubstr("nothing says which end")));
   const HeightField field = HeightField::make(seen.depth, seen.info.calibration.calibration, kVolume).value();
   for (const int column : {20, 60, 100}) {
     double sum = 0;

@@ -169,8 +169,8 @@ TEST(DepthReading, HuesOfUnknownMeaningSayTheWords) {
   const auto offers = [&](const SourceOptions& options) { return opened(options).reading.offers; };
   EXPECT_THAT(opened({}).notes, Contains(HasSubstr("--packing depth-alone")));
   EXPECT_THAT(offers({.packing = Packing::DepthAlone}),
-              Contains(AllOf(HasSubstr("polarity=near-high"), HasSubstr("--as realsense-disparity"),
-                             HasSubstr("near=MM,far=MM"))));
+              Contains(AllOf(HasSubstr("--as realsense-disparity"), HasSubstr("near=MM,far=MM"))));
+  EXPECT_THAT(opened({.packing = Packing::DepthAlone}).reading.doubts, Contains(HasSubstr("polarity=near-high")));
   const KnownKind* const kind = findKind("realsense-disparity");
   EXPECT_THAT(offers({.packing = Packing::DepthAlone, .as = kind}),
               Contains(AllOf(HasSubstr("near=MM,far=MM"), Not(HasSubstr("polarity")))));

@@ -18,8 +18,10 @@ namespace relievo {
 namespace {
 
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 
 constexpr int kCols = 64, kRows = 48;
@@ -145,13 +147,39 @@ TEST(FloatReading, InAFolderTheDepthsOwnNameTells) {
   }
 }
 
+// Neither name nor file says what the numbers are: the floor is nearer below.
+TEST(FloatReading, NumbersWithoutANameMakeTheFloorNear) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, const auto& value) {
+    test::FloatTiff tiff{.width = kCols, .height = kRows};
+    for (int i = 0; i < kCols * kRows; ++i) {
+      const double metres = metresAt(i % kCols, i / kCols);
+      tiff.samples.push_back(metres == 0 ? 0 : static_cast<float>(value(metres)));
+    }
+    test::writeFloatTiff(folder / name, tiff);
+    return test::openFilm({.url = folder / name});
+  };
+  const auto disparity = [](double m) { return 90 / m; };
+  const test::OpenedFilm seen = write("LEFT_GT.tif", disparity);
+  expectDistances(seen);
+  EXPECT_EQ(seen.info.calibration.calibration.law, DepthLaw::Inverse);
+  EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("distances: --calibration unit=1000")));
+  const test::OpenedFilm metres = write("GT.tif", [](double m) { return m; });
+  expectDistances(metres);
+  EXPECT_THAT(metres.info.reading.doubts, IsEmpty());
+  // A name that says depth is believed, with a doubt, unless the numbers begin at 0.
+  const test::OpenedFilm named = write("depth.tif", disparity);
+  EXPECT_TRUE(named.info.calibration.calibration.unit_mm);
+  EXPECT_THAT(named.info.reading.doubts, Contains(AllOf(HasSubstr("nearer above"), HasSubstr("law=inverse"))));
+  const test::OpenedFilm relative = write("rel_depth.tif", [](double m) { return (4.07 - m) / 3; });
+  EXPECT_GT(relative.heightAt(30, 40), relative.heightAt(30, 10) + 0.5);
+}
+
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
-  EXPECT_TRUE(namesDisparity("tiff", "a/Disparity/left/7.tif"));
-  EXPECT_TRUE(namesDisparity("npy", "disp0.npy"));
-  EXPECT_FALSE(namesDisparity("pfm", "disp/depth_map_7.pfm")) << "the file's own name first";
-  EXPECT_FALSE(namesDisparity("tiff", "disp/a/b/c.tif")) << "the last three names only";
-  EXPECT_TRUE(namesDisparity("pfm", "7.pfm"));
-  EXPECT_FALSE(namesDisparity("exr", "7.exr"));
+  EXPECT_EQ(namesDisparity("a/Disparity/left/7.tif"), true);
+  EXPECT_EQ(namesDisparity("disp0.npy"), true);
+  EXPECT_EQ(namesDisparity("disp/depth_map_7.pfm"), false) << "the file's own name first";
+  EXPECT_EQ(namesDisparity("disp/a/b/c.tif"), std::nullopt) << "the last three names only";
 }
 
 }  // namespace

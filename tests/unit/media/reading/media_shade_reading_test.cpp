@@ -14,7 +14,9 @@ namespace relievo {
 namespace {
 
 using test::makeGrayFrame;
+using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Key;
@@ -55,23 +57,57 @@ TEST(ShadeReading, WhoSaysMoreHasSaidTheHolesToo) {
   }
 }
 
-TEST(ShadeReading, AFilmsBlackIsOfferedAsAHole) {
-  const char* const offer = "polarity=near-low,invalid=0-";
-  EXPECT_THAT(readingOf(film(8, 17, 60)).offer, HasSubstr("polarity=near-low,invalid=0-19"));
-  EXPECT_THAT(readingOf(film(10, 66, 240)).offer, HasSubstr("polarity=near-low,invalid=0-76"));
-  EXPECT_THAT(readingOf(film(8, 1, 60, ColorRange::Full)).offer, HasSubstr("polarity=near-low,invalid=0-3"));
-  EXPECT_THAT(readingOf(film(8, 0, 60, ColorRange::Unspecified)).offer, HasSubstr("polarity=near-low,invalid=0-3"));
-  EXPECT_THAT(readingOf(film(8, 17, 18)).offer, Not(HasSubstr(offer))) << "black is one of the shades";
-  EXPECT_THAT(readingOf(film(8, 60, 60)).offer, Not(HasSubstr(offer))) << "there is no black";
-  EXPECT_THAT(readingOf(film(8, 17, 60), {.command_line = {{"invalid", "none"}}}).offer, Not(HasSubstr(offer)));
+TEST(ShadeReading, AFilmsBlackMayBeAHole) {
+  EXPECT_EQ(readingOf(film(8, 17, 60)).black, "0-19");
+  EXPECT_EQ(readingOf(film(10, 66, 240)).black, "0-76");
+  EXPECT_EQ(readingOf(film(8, 1, 60, ColorRange::Full)).black, "0-3");
+  EXPECT_EQ(readingOf(film(8, 0, 60, ColorRange::Unspecified)).black, "0-3");
+  EXPECT_EQ(readingOf(film(8, 17, 18)).black, "") << "black is one of the shades";
+  EXPECT_EQ(readingOf(film(8, 60, 60)).black, "") << "there is no black";
+  EXPECT_EQ(readingOf(film(8, 17, 60), {.command_line = {{"invalid", "none"}}}).black, "");
+}
+
+// Gray of 64 x 96 without a word of what it means, of the given code.
+template <class Code>
+DepthMeaning meaningOf(Code&& code, ColorModel model = ColorModel::Gray, const DepthClues& clues = {}) {
+  Frame frame = makeGrayFrame(64, 96, 8, {}, code);
+  frame.model = model;
+  return readMeaning(clues, nullptr, frame).value();
 }
 
 // A street: the road below is nearer than the houses and the sky above.
-TEST(ShadeReading, GroundThatIsDarkSaysThatNearMayBeDark) {
-  const auto offerFor = [](const auto& code) { return readingOf(makeGrayFrame(64, 96, 8, {}, code)).offer; };
-  EXPECT_THAT(offerFor([](int, int r) { return 220 - 2 * r; }), HasSubstr("as if near were dark"));
-  EXPECT_THAT(offerFor([](int, int r) { return 30 + 2 * r; }), Not(HasSubstr("as if")));
-  EXPECT_THAT(offerFor([](int c, int) { return 30 + 2 * c; }), Not(HasSubstr("as if")));
+TEST(ShadeReading, TheNearEndIsTheOneThatMakesTheGroundNear) {
+  const DepthMeaning dark = meaningOf([](int, int r) { return 220 - 2 * r; });
+  EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_THAT(dark.reading.doubts, ElementsAre(AllOf(HasSubstr("dark is taken, so that"), HasSubstr("=near-high"))));
+  const DepthMeaning bright = meaningOf([](int, int r) { return 30 + 2 * r; });
+  EXPECT_EQ(bright.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(bright.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken, so that"), HasSubstr("=near-low"))));
+  const DepthMeaning level = meaningOf([](int c, int) { return 30 + 2 * c; });
+  EXPECT_EQ(level.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(level.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken;"), HasSubstr("=near-low"))));
+}
+
+TEST(ShadeReading, WhoeverStatesTheNearEndIsNotDoubted) {
+  const auto road = [](int, int r) { return 220 - 2 * r; };
+  const CalibrationSettings bright{{"polarity", "near-high"}};
+  EXPECT_THAT(meaningOf(road, ColorModel::Gray, {.command_line = bright}).reading.doubts, IsEmpty());
+  EXPECT_THAT(meaningOf(road, ColorModel::Gray, {.tags = {{"DEPTH_POLARITY", "near-high"}}}).reading.doubts, IsEmpty());
+  const DepthMeaning assumed =
+      meaningOf(road, ColorModel::Gray, {.tags = {{"DEPTH_POLARITY", "near-high"}, {"DEPTH_ASSUMED", "polarity"}}});
+  EXPECT_EQ(assumed.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(assumed.reading.doubts, ElementsAre(HasSubstr("polarity=near-low")));
+}
+
+// Black stands at the top, as a sky without depth does: it says nothing of the ground.
+TEST(ShadeReading, BlackThatMayBeAHoleIsOneIfNearIsDark) {
+  const auto shades = [](int bottom) { return [=](int, int r) { return r < 24 ? 1 : r < 48 ? 130 : bottom; }; };
+  const DepthMeaning dark = meaningOf(shades(60), ColorModel::Yuv);
+  EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_EQ(dark.calibration.calibration.invalid.text(), "0-3");
+  const DepthMeaning bright = meaningOf(shades(200), ColorModel::Yuv);
+  EXPECT_TRUE(bright.calibration.calibration.invalid.empty());
+  EXPECT_THAT(bright.reading.doubts, ElementsAre(HasSubstr("polarity=near-low,invalid=0-3")));
 }
 
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
