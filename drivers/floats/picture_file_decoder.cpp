@@ -58,24 +58,28 @@ double encoded(double light) noexcept {
   return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
-std::uint16_t colorCode(float sample, const FilePicture& picture) noexcept {
+std::uint8_t colorCode(float sample, const FilePicture& picture) noexcept {
+  constexpr double kWhite = 255;
   if (std::isnan(sample)) return 0;
-  const double scale = picture.whole_bits == 8 ? static_cast<double>(kStretch) : 1;
-  const double code =
-      picture.whole_bits > 0 ? scale * static_cast<double>(sample) : kTop * encoded(static_cast<double>(sample));
-  return static_cast<std::uint16_t>(std::lround(std::clamp(code, 0.0, kTop)));
+  const double share = picture.whole_bits > 0 ? static_cast<double>(sample) / ((1 << picture.whole_bits) - 1)
+                                              : encoded(static_cast<double>(sample));
+  return static_cast<std::uint8_t>(std::lround(kWhite * std::clamp(share, 0.0, 1.0)));
 }
 
+// 8 bits of RGB, which depth in colours can be read from.
 Frame colorFrame(const FilePicture& picture) {
-  Codes codes(picture.samples.size());
-  std::transform(picture.samples.begin(), picture.samples.end(), codes.begin(),
+  auto codes = std::make_shared<std::vector<std::uint8_t>>(picture.samples.size());
+  std::transform(picture.samples.begin(), picture.samples.end(), codes->begin(),
                  [&](float sample) { return colorCode(sample, picture); });
-  Frame frame = grayFrame(std::make_shared<const Codes>(std::move(codes)), picture.width, picture.height);
+  Frame frame;
+  frame.width = picture.width;
+  frame.height = picture.height;
   frame.model = ColorModel::Rgb;
-  frame.planes[0].stride_bytes = std::ptrdiff_t{6} * picture.width;
-  for (std::size_t k = 0; k < 3; ++k) {
-    frame.components[k] = {.offset_bytes = static_cast<std::uint8_t>(2 * k), .step_bytes = 6, .bits = 16};
-  }
+  frame.range = ColorRange::Full;
+  frame.plane_count = 1;
+  for (std::uint8_t k = 0; k < 3; ++k) frame.components[k] = {.offset_bytes = k, .step_bytes = 3};
+  frame.planes[0] = {codes->data(), std::ptrdiff_t{3} * picture.width};
+  frame.owner = std::move(codes);
   return frame;
 }
 

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
+#include "app/media/reading/depth_reading.h"
 #include "app/scene/color_curve.h"
 #include "app/scene/color_samples.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -70,6 +73,51 @@ std::optional<ColorMapFit> bestColorMap(const Frame& picture) {
     if (found && (!best || found->residual < best->residual)) best = found;
   }
   return best;
+}
+
+namespace {
+
+// How many samples on the curve have each entry of the map, 0 to 255.
+std::vector<double> entriesOf(const Frame& depth, DepthCode code) {
+  constexpr int kMostAcross = 320;
+  const ColorSamples colors(depth);
+  const ColorCurve& curve = curveOf(code);
+  const int step = 1 + (std::max(depth.width, depth.height) - 1) / kMostAcross;
+  std::vector<double> entries(DepthCalibration::kMapHighest + 1);
+  for (int r = 0; r < depth.height; r += step) {
+    for (int c = 0; c < depth.width; c += step) {
+      const ColorCurve::Point point = curve.nearest(colors.at(c, r));
+      const auto entry = static_cast<std::size_t>(std::lround(point.s * DepthCalibration::kMapHighest));
+      if (static_cast<double>(point.distance) <= kOnCurve) ++entries[entry];
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationLayers& said) {
+  constexpr double kHoles = 0.002, kTimes = 4;
+  if (depth.model == ColorModel::Gray || says(said, {"invalid"})) return {};
+  std::vector<double> entries = entriesOf(depth, code);
+  const double all = std::accumulate(entries.begin(), entries.end(), 0.0);
+  // Other programs' maps differ by an entry, coding smears by three; the entries beyond are then nearly unused.
+  const std::ptrdiff_t smear = depth.model == ColorModel::Yuv ? 3 : 1, gap = 4 * smear;
+  DepthReading reading;
+  double most = kHoles * all;
+  for (const bool last : {false, true}) {
+    const double end = std::accumulate(entries.begin(), entries.begin() + smear + 1, 0.0);
+    const double beyond = std::accumulate(entries.begin() + smear + 1, entries.begin() + smear + gap + 1, 0.0);
+    std::ranges::reverse(entries);
+    if (end <= most || kTimes * beyond >= end) continue;
+    most = end;
+    const int highest = DepthCalibration::kMapHighest, wide = static_cast<int>(smear);
+    reading.settings["invalid"] = last ? print("%d-%d", highest - wide, highest) : print("0-%d", wide);
+    reading.why = print("%.1f %% at the colour map's %s, apart from the others: holes", 100 * end / all,
+                        last ? "end" : "beginning");
+    reading.offer = "if they are none: --calibration invalid=none";
+  }
+  return reading;
 }
 
 }  // namespace relievo

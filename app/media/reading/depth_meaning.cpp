@@ -150,7 +150,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
       read.kind = findKind("record3d");
     }
   } else if (clues.code != DepthCode::Luma) {
-    // An entry of a colour map has no meaning by itself.
+    read = readColorMap(look, clues.code, layers);
   } else if (isOfStereoCamera(kind) && clues.place.camera) {
     read = readDisparities(look, countOf(look, later), *clues.place.camera);
   } else if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {

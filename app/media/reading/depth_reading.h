@@ -39,6 +39,9 @@ struct DepthReading {
 // For codes that are brightness: finds the range of YUV that states none, and whether black is a hole.
 [[nodiscard]] DepthReading readShades(const Frame& depth, const CodeCount& count, const CalibrationLayers& said);
 
+// For depth through a colour map: whether one of its ends is a hole, as the pictures show.
+[[nodiscard]] DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationLayers& said);
+
 // The kind that `readCodes` will find, determined before the samples are put in its order. The unit of distances is
 // determined from all pictures of `count`. Null if nothing is certain.
 [[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);

@@ -186,8 +186,8 @@ TEST(Exr, ColoursWithAZBufferAreColourAndDepth) {
   expectDepth(film);
   EXPECT_EQ(film.pair.color.model, ColorModel::Rgb);
   // Light of 0.5 and 0.25 on a screen: IEC 61966-2-1.
-  EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
-  EXPECT_NEAR(test::sampleAt(film.pair.color, 2, 25, 3) / 65535.0, 0.5371, 0.002);
+  EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 255.0, 0.7354, 0.002);
+  EXPECT_NEAR(test::sampleAt(film.pair.color, 2, 25, 3) / 255.0, 0.5371, 0.002);
 }
 
 TEST(Exr, ASeriesWithColoursAndAZBufferIsBothToo) {
@@ -204,7 +204,7 @@ TEST(Exr, ASeriesWithColoursAndAZBufferIsBothToo) {
     EXPECT_EQ(film.info.packing, Packing::Tracks);
     expectDepth(film);
     EXPECT_EQ(film.pair.color.model, ColorModel::Rgb);
-    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
+    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 255.0, 0.7354, 0.002);
   }
 }
 
@@ -271,7 +271,7 @@ TEST(Exr, UnrealsWorldDepthIsInCentimetres) {
     const test::OpenedFilm film = test::openFilm({.url = folder / name});
     expectDepth(film, 0.003);
     if (film.info.packing == Packing::DepthAlone) continue;
-    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 65535.0, 0.7354, 0.002);
+    EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 255.0, 0.7354, 0.002);
   }
 }
 

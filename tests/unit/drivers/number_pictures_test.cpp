@@ -131,9 +131,9 @@ TEST(Pfm, ThreeComponentsAreColourUnlessTheyAreEqual) {
     const Frame& frame = picture.frames[0];
     ASSERT_EQ(frame.model, equal ? ColorModel::Gray : ColorModel::Rgb);
     if (equal) continue;
-    EXPECT_EQ(test::sampleAt(frame, 0, 0, 1), 65535u) << "red, in the file's first row, at the bottom";
+    EXPECT_EQ(test::sampleAt(frame, 0, 0, 1), 255u) << "red, in the file's first row, at the bottom";
     EXPECT_EQ(test::sampleAt(frame, 1, 0, 1), 0u);
-    EXPECT_EQ(test::sampleAt(frame, 2, 0, 0), 65535u);
+    EXPECT_EQ(test::sampleAt(frame, 2, 0, 0), 255u);
   }
 }
 

@@ -133,5 +133,35 @@ TEST(ColorMapFit, AGuessedNearEndIsTold) {
   EXPECT_THAT(doubtsFor({{"polarity", "near-low"}}), testing::Not(testing::Contains(testing::HasSubstr("polarity="))));
 }
 
+// Jet over distances with 0 for "no depth", as many write a sensor's: dark blue is a hole, not the nearest wall.
+TEST(ColorMapFit, AnEndApartFromTheOtherColoursIsAHole) {
+  const TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .width = kCols, .height = kRows, .frames = 2}});
+  const auto invalidOf = [&](const std::string& depth, const CalibrationSettings& said = {}) {
+    PairReader reader(kFfmpeg);
+    EXPECT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = depth, .command_line = said}));
+    return reader.info().calibration.calibration.invalid.text();
+  };
+  for (const bool reversed : {false, true}) {
+    const auto with_holes = [=](int c, int r) {
+      const double s = c < 16 ? 0 : depthAt(c, r);
+      return jet(reversed ? 1 - s : s);
+    };
+    makeClip(folder / "film.mkv", {coded(with_holes, "23")});
+    EXPECT_EQ(invalidOf(folder / "film.mkv"), reversed ? "252-255" : "0-3");
+    EXPECT_EQ(invalidOf(folder / "film.mkv", {{"invalid", "none"}}), "none");
+    ClipTrack picture{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1};
+    picture.sample = [=](int k, int c, int r, int) {
+      return static_cast<std::uint32_t>(std::lround(255 * with_holes(c, r)[static_cast<std::size_t>(k)]));
+    };
+    makeClip(folder / "depth.png", {picture});
+    EXPECT_EQ(invalidOf(folder / "depth.png"), reversed ? "254-255" : "0-1");
+  }
+  makeClip(folder / "whole.mkv", {coded([](int c, int r) { return jet(0.2 + depthAt(c, r)); }, "23")});
+  EXPECT_EQ(invalidOf(folder / "whole.mkv"), "none");
+  makeClip(folder / "slope.mkv", {coded([](int c, int) { return jet(std::max(0.0, (c - 8.0) / kCols)); }, "23")});
+  EXPECT_EQ(invalidOf(folder / "slope.mkv"), "none") << "the slope runs into the end";
+}
+
 }  // namespace
 }  // namespace relievo

@@ -182,5 +182,25 @@ TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("disp/a/b/c.tif"), std::nullopt) << "the last three names only";
 }
 
+// An array of rows x columns x 3, in colours from blue (far) over cyan, yellow and red to dark red.
+TEST(FloatReading, AnArrayOfColoursIsReadThroughItsColourMap) {
+  const TemporaryFolder folder;
+  std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (48, 64, 3), }";
+  header.resize(117, ' ');
+  std::ofstream file(folder / "depth.npy", std::ios::binary);
+  file << std::string("\x93NUMPY\x01\0", 8) << static_cast<char>(header.size() + 1) << '\0' << header << '\n';
+  for (int i = 0; i < kCols * kRows; ++i) {
+    const double s = 0.1 + 0.8 * (i / kCols) / kRows;
+    for (const double middle : {3.0, 2.0, 1.0}) {
+      file.put(static_cast<char>(std::lround(255 * std::clamp(1.5 - std::abs(4 * s - middle), 0.0, 1.0))));
+    }
+  }
+  file.close();
+  const test::OpenedFilm film = test::openFilm({.url = folder / "depth.npy"});
+  ASSERT_TRUE(film.info.has_depth);
+  EXPECT_EQ(film.info.calibration.calibration.code, DepthCode::Jet);
+  EXPECT_NEAR(film.heightAt(9, 36) - film.heightAt(9, 12), 0.8 / 2, 0.005);
+}
+
 }  // namespace
 }  // namespace relievo
