@@ -60,6 +60,8 @@ class CodeCount {
 // three bytes of 24-bit codes, the lowest in red; or a float's four bytes in RGBA. Returns AsStored unless the lower
 // byte often wraps where the upper one changes by one.
 [[nodiscard]] SampleOrder packedOrder(const Frame& depth);
+// True if a component of the picture is the same in all samples but a hundredth.
+[[nodiscard]] bool isConstant(const Frame& frame, std::size_t part);
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 

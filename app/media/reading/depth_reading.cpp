@@ -220,7 +220,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (isTerrain(packed)) return findKind(packed == SampleOrder::Terrarium ? "terrarium" : "mapbox");
     const bool distances = ordered && isDistances(CodeCount(*ordered));
     if (packed == SampleOrder::FloatBytes) return findKind("tartanair");
-    if (packed == SampleOrder::BlueGreen) return findKind("carla");
+    if (packed == SampleOrder::BlueGreen) return findKind(isConstant(depth, 0) ? "bg-packed" : "carla");
     if (packed == SampleOrder::Below20) return findKind("carla-near");
     return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
   }

@@ -113,17 +113,21 @@ SampleOrder terrainOrder(const Frame& frame) noexcept {
 
 }  // namespace
 
+bool isConstant(const Frame& frame, std::size_t part) {
+  std::uint64_t others = 0;
+  const std::uint32_t usual = partAt(frame, part, frame.width / 2, frame.height / 2);
+  for (int r = 0; r < frame.height; ++r) {
+    for (int c = 0; c < frame.width; ++c) others += partAt(frame, part, c, r) != usual ? 1 : 0;
+  }
+  const std::uint64_t samples = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
+  return 100 * others <= samples;
+}
+
 SampleOrder packedOrder(const Frame& depth) {
   if (!isPackable(depth)) return SampleOrder::AsStored;
   if (holdsFloats(depth)) return SampleOrder::FloatBytes;
   if (const SampleOrder terrain = terrainOrder(depth); terrain != SampleOrder::AsStored) return terrain;
-  std::uint64_t other_blue = 0;
-  const std::uint32_t blue = partAt(depth, 2, depth.width / 2, depth.height / 2);
-  for (int r = 0; r < depth.height; ++r) {
-    for (int c = 0; c < depth.width; ++c) other_blue += partAt(depth, 2, c, r) != blue ? 1 : 0;
-  }
-  const std::uint64_t samples = static_cast<std::uint64_t>(depth.width) * static_cast<std::uint64_t>(depth.height);
-  if (100 * other_blue > samples) {  // of 24 bits the upper 16, whichever end is the upper one
+  if (!isConstant(depth, 2)) {  // of 24 bits the upper 16, whichever end is the upper one
     if (isNumber(depth)) return areBelow20Bits(depth) ? SampleOrder::Below20 : SampleOrder::BlueGreen;
     if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
     return carries(depth, 2, 1) ? SampleOrder::BlueGreen : SampleOrder::AsStored;

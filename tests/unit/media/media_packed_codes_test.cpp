@@ -71,6 +71,16 @@ TEST(PackedCodes, CarlasThreeBytesAreAKilometre) {
   expectScene(film, 10, {.mm = 16});  // a code is 15.26 mm
 }
 
+// The upper byte in red, the lower one in green, by a program that takes red for blue.
+TEST(PackedCodes, TwoBytesInBlueAndGreenAreMillimetres) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {pictures([](int k, int c, int r) {
+             const auto mm = static_cast<std::uint32_t>(distanceMm(c, r));
+             return k == 2 ? mm >> 8 : k == 1 ? mm & 0xff : 0;
+           })});
+  expectScene(openFilm({.url = folder / "a.png"}), 1, {.mm = 1.01});
+}
+
 // Of a room the blue byte is below 3, and red, the lowest byte, changes everywhere: that is no hue.
 TEST(PackedCodes, CarlasThreeBytesOfARoomAreReadFinely) {
   TemporaryFolder folder;
