@@ -159,8 +159,12 @@ bool isOfColmap(std::string_view head) {
 }
 
 // Files that lack a reader although others of their ending have one; null: none.
-const char* unreadVariant(std::string_view head, std::string_view ending) {
+const char* unreadVariant(std::string_view head, std::string_view path) {
   constexpr std::size_t kFlags = 20;  // of WebP; 2: it is animated
+  const std::string ending = endingOf(path);
+  if (path.ends_with(".depth_meters.hdf5"))
+    return "it holds Hypersim's distances from the camera's centre, which are no depth yet; name its folder instead: "
+           "the command that converts all of it is then printed";
   if (ending == "bin" && isOfColmap(head)) {
     return "it is a depth map of COLMAP; convert it: python3 -c 'import numpy; w, h, c, d = open(\"FILE\", "
            "\"rb\").read().split(b\"&\", 3); numpy.save(\"depth.npy\", numpy.frombuffer(d, \"<f4\").reshape(int(h), "
@@ -185,7 +189,7 @@ const char* unreadVariant(std::string_view head, std::string_view ending) {
 
 std::optional<Error> unreadFormat(const std::string& path) {
   const std::string head = headOf(path);
-  if (const char* const line = head.empty() ? nullptr : unreadVariant(head, endingOf(path)); line != nullptr)
+  if (const char* const line = head.empty() ? nullptr : unreadVariant(head, path); line != nullptr)
     return Error{ErrorCode::Unsupported, 0, line};
   const auto found =
       std::ranges::find_if(kUnread, [&](const UnreadFormat& format) { return head.starts_with(format.magic); });

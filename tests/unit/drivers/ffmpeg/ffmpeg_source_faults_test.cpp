@@ -101,6 +101,7 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "rosbags-convert --src FOLDER --dst film.bag"}},
       {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "rosbags-convert --src FOLDER --dst film.bag"}},
       {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy", "h5py.File"}},
+      {"frame.0000.depth_meters.hdf5", "\x89HDF\r\n\x1a\n"sv, {"Hypersim", "name its folder"}},
       {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
       {"a.oni", "NI10\1"sv, {"OpenNI", "RELIEVO_OPENNI"}},
       {"a.klg", "\6\0\0\0"sv, {"scan", "RELIEVO_SCAN"}},
