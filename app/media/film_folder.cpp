@@ -10,6 +10,7 @@
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -24,10 +25,15 @@ std::string stemOf(const std::string& name) {
 // there is none.
 std::string depthOf(const std::string& film, const std::vector<std::string>& names) {
   const std::string stem = stemOf(film);
-  std::vector<std::string> stems{stem + "-depth", stem + "_depth", stem + ".depth"};
-  for (const char* word : {"color", "colour", "rgb", "image"}) {
-    const std::size_t at = stem.find(word);
-    if (at != stem.npos) stems.push_back(std::string(stem).replace(at, std::char_traits<char>::length(word), "depth"));
+  std::vector<std::string> stems;
+  for (const std::string depth : {"depth", "disparity"}) {
+    for (const char* const between : {"-", "_", "."}) {
+      stems.push_back(print("%s%s%s", stem.c_str(), between, depth.c_str()));
+    }
+    for (const std::string word : {"color", "colour", "rgb", "image"}) {
+      const std::size_t at = stem.find(word);
+      if (at != stem.npos) stems.push_back(std::string(stem).replace(at, word.size(), depth));
+    }
   }
   for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
     if (!stem.ends_with(of_source)) continue;

@@ -196,7 +196,12 @@ Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& lo
   const double nearer = nearerBelow(look, seen);
   const bool upside_down = nearer < -kClearlyNearer;
   if (certaintyOf(by) == Certainty::Likely) {
-    if ((!upside_down && !read.unsure) || read.offer.empty()) return choice;
+    if (!upside_down && !read.unsure) return choice;
+    if (read.offer.empty() && !seen.unit_mm) {
+      const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
+      read.offer = print("if the other end is near: --calibration polarity=%s", near_high ? "near-low" : "near-high");
+    }
+    if (read.offer.empty()) return choice;
     doubts.push_back((upside_down ? "read so, the view is nearer above than below, as few are: " : "") + read.offer);
     read.offer.clear();
     return choice;
@@ -246,6 +251,8 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   CalibrationLayers layers = saidLayers(clues);
   const HueSpan span = addKind(clues, kind, layers);
   fitHoles(layers.stated_kind, look.components[0].bits);
+  const bool film = clues.code == DepthCode::Luma && look.model == ColorModel::Yuv;
+  if (film && saysDisparity(clues.path)) layers.names.insert({"polarity", "near-high"});
   DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);

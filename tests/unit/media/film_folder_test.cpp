@@ -33,7 +33,7 @@ TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
 TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
   files({"a.mp4", "a_depth.mkv", "a-depth.png", "color_output.webm", "depth_output.webm", "photo.jpg",
          "photo.depth.png", "c_src.mp4", "c_vis.mp4", "color.mp4", "depth.npy", "b.mp4", "b_depth.txt", "cat-image.jpg",
-         "cat-depth.jpg"});
+         "cat-depth.jpg", "d.mp4", "d_disparity.mp4", "image_e.mp4", "disparity_e.mkv"});
   std::filesystem::create_directory(folder_ / "c-depth.mp4");
   files({"c.mp4"});
   EXPECT_EQ(depthBeside(folder_ / "a.mp4"), folder_ / "a_depth.mkv");
@@ -42,6 +42,8 @@ TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
   EXPECT_EQ(depthBeside(folder_ / "color.mp4"), folder_ / "depth.npy");
   EXPECT_EQ(depthBeside(folder_ / "photo.jpg"), folder_ / "photo.depth.png");
   EXPECT_EQ(depthBeside(folder_ / "cat-image.jpg"), folder_ / "cat-depth.jpg");
+  EXPECT_EQ(depthBeside(folder_ / "d.mp4"), folder_ / "d_disparity.mp4");
+  EXPECT_EQ(depthBeside(folder_ / "image_e.mp4"), folder_ / "disparity_e.mkv");
   for (const char* none : {"a_depth.mkv", "b.mp4", "c.mp4", "absent.mp4", "depth_output.webm"}) {
     EXPECT_EQ(depthBeside(folder_ / none), "") << none;
   }

@@ -88,6 +88,13 @@ TEST(ShadeReading, TheNearEndIsTheOneThatMakesTheGroundNear) {
   EXPECT_THAT(level.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken;"), HasSubstr("=near-low"))));
 }
 
+TEST(ShadeReading, AFilmThatIsNamedDisparityIsNearWhereItIsBright) {
+  const DepthMeaning named =
+      meaningOf([](int, int r) { return 220 - 2 * r; }, ColorModel::Yuv, {.path = "a/clip_disparity.mp4"});
+  EXPECT_EQ(named.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(named.reading.doubts, ElementsAre(AllOf(HasSubstr("nearer above"), HasSubstr("polarity=near-low"))));
+}
+
 TEST(ShadeReading, WhoeverStatesTheNearEndIsNotDoubted) {
   const auto road = [](int, int r) { return 220 - 2 * r; };
   const CalibrationSettings bright{{"polarity", "near-high"}};
