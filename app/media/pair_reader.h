@@ -42,6 +42,7 @@ struct SourceOptions {
   Material material;                                // what --material says
   std::optional<AudioFormat> sound;                 // the format to deliver sound in; nullopt: no sound
   std::string sound_languages, subtitle_languages;  // "jpn,en": the first that is there; see film_tracks.h
+  std::string desktop_language;                     // "de_DE.UTF-8", for subtitle files if no language is asked for
 };
 
 // A colour picture, and the depth picture that DepthFollower finds for its time. `matched` is false when that depth

@@ -238,7 +238,7 @@ void PairReader::Impl::countTracks(const TrackPlan& plan) {
     info.subtitles = tracksOf(streams, StreamKind::Subtitle);
     for (FilmTrack& file : subtitleFilesOf(options.url)) info.subtitles.push_back(std::move(file));
     info.sound = chooseSound(info.sounds, options.sound_languages);
-    info.words = chooseSubtitles(info.subtitles, options.subtitle_languages);
+    info.words = chooseSubtitles(info.subtitles, options.subtitle_languages, options.desktop_language);
   }
   info.sound_tracks = count(StreamKind::Audio);
   info.subtitle_tracks = count(StreamKind::Subtitle);

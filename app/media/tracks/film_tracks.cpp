@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string_view>
+#include <tuple>
 
 #include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
@@ -37,9 +38,9 @@ constexpr std::array kLanguages{
     Language{"zh", "chi", "zho"},
 };
 
-// One word for a language, however it is written; without a region ("pt-BR").
+// One word for a language, however it is written; without what follows it ("pt-BR", "de_DE.UTF-8", "en.sdh").
 std::string plain(std::string_view code) {
-  const std::string word = lowerCase(code.substr(0, code.find_first_of("-_")));
+  const std::string word = lowerCase(code.substr(0, code.find_first_of("-_.")));
   const auto known = std::ranges::find_if(kLanguages, [&](const Language& each) {
     return word == each.two || word == each.three || (!each.other.empty() && word == each.other);
   });
@@ -111,9 +112,13 @@ std::vector<FilmTrack> subtitleFilesOf(const std::string& film) {
     const std::string own = beside.stem().string();  // FILM or FILM.en
     if (own != stem && !own.starts_with(stem + ".")) continue;
     const std::string between = own.size() > stem.size() ? own.substr(stem.size() + 1) : "";
-    tracks.push_back({.path = beside.string(), .codec = ending.substr(1), .language = between});
+    tracks.push_back({.path = beside.string(),
+                      .codec = ending.substr(1),
+                      .language = between,
+                      .forced = lowerCase(between).ends_with("forced")});
   }
-  std::ranges::sort(tracks, {}, &FilmTrack::path);
+  std::ranges::sort(
+      tracks, {}, [](const FilmTrack& track) { return std::tuple(track.forced, !track.language.empty(), track.path); });
   return tracks;
 }
 
@@ -123,9 +128,15 @@ std::optional<std::size_t> chooseSound(const std::vector<FilmTrack>& tracks, con
   return firstThat(tracks, [](const FilmTrack& track) { return track.by_default; }).value_or(0);
 }
 
-std::optional<std::size_t> chooseSubtitles(const std::vector<FilmTrack>& tracks, const std::string& languages) {
+std::optional<std::size_t> chooseSubtitles(const std::vector<FilmTrack>& tracks, const std::string& languages,
+                                           const std::string& desktop) {
   if (const auto wished = byLanguage(tracks, languages)) return wished;
-  if (const auto file = firstThat(tracks, [](const FilmTrack& track) { return track.stream < 0; })) return file;
+  const auto is_file = [](const FilmTrack& track) { return track.stream < 0; };
+  const auto understood = [&](const FilmTrack& track) {
+    return is_file(track) && !desktop.empty() && plain(track.language) == plain(desktop);
+  };
+  if (const auto file = firstThat(tracks, understood)) return file;
+  if (const auto file = firstThat(tracks, is_file)) return file;
   return firstThat(tracks, [](const FilmTrack& track) { return track.by_default || track.forced; });
 }
 

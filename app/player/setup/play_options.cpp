@@ -158,7 +158,8 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
   command
       .add_option(
           "--slang", player.source.subtitle_languages,
-          "Subtitles in the first of these languages that the film has [those beside the film, or its default ones]")
+          "Subtitles in the first of these languages that the film has [those beside the film, first in the desktop's "
+          "language,\nor its default ones]")
       ->type_name("LANG,..");
 }
 

@@ -88,6 +88,15 @@ std::string usualFilms() {
   return "/srv/films";
 }
 
+// POSIX, Environment Variables 8.2: which of them holds for messages.
+std::string desktopLanguage() {
+  for (const char* const name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
+    const char* const value = std::getenv(name);
+    if (value != nullptr && *value != '\0') return value;
+  }
+  return "";
+}
+
 // The list of films needs a visible screen, or programs that know its folders.
 void settleBrowser(PlayOptions& play) {
   const bool no_film = play.player.source.url.empty();
@@ -104,6 +113,7 @@ void settleBrowser(PlayOptions& play) {
 Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
   if (play.print_keys || play.print_states) return {};
   play.player.stays = !play.control_path.empty();
+  play.player.source.desktop_language = desktopLanguage();
   play.player.osd = play.osd || play.display.word != "offscreen";  // never in a capture unasked
   const bool chosen = !play.display.word.empty();
   settleDisplay(play, machine);

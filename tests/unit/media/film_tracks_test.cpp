@@ -32,25 +32,36 @@ TEST(FilmTracks, SoundIsTheFirstLanguageThatIsThere) {
 }
 
 TEST(FilmTracks, SubtitlesAreOffUnlessSomethingAsksForThem) {
-  EXPECT_FALSE(chooseSubtitles({track("eng"), track("ger")}, ""));
-  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger")}, "de"), 1u);
-  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger", false, true)}, ""), 1u);
-  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger", true)}, "kor"), 1u);
+  EXPECT_FALSE(chooseSubtitles({track("eng"), track("ger")}, "", ""));
+  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger")}, "de", ""), 1u);
+  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger", false, true)}, "", ""), 1u);
+  EXPECT_EQ(chooseSubtitles({track("eng"), track("ger", true)}, "kor", ""), 1u);
   FilmTrack file = track("");
   file.stream = -1;
-  EXPECT_EQ(chooseSubtitles({track("eng", true), file}, ""), 1u) << "who puts a file there wants it";
+  EXPECT_EQ(chooseSubtitles({track("eng", true), file}, "", ""), 1u) << "who puts a file there wants it";
+}
+
+TEST(FilmTracks, SubtitleFilesAreChosenByTheLanguageOfTheDesktop) {
+  std::vector<FilmTrack> files{track("de"), track("en.sdh"), track("pt-BR")};
+  for (FilmTrack& file : files) file.stream = -1;
+  EXPECT_EQ(chooseSubtitles(files, "", "en_GB.UTF-8"), 1u);
+  EXPECT_EQ(chooseSubtitles(files, "", "pt_PT"), 2u);
+  EXPECT_EQ(chooseSubtitles(files, "de", "en_GB.UTF-8"), 0u) << "what is asked for comes first";
+  EXPECT_EQ(chooseSubtitles(files, "", "C.UTF-8"), 0u);
+  EXPECT_FALSE(chooseSubtitles({track("eng")}, "", "en_GB.UTF-8")) << "a track of the film is not shown unasked";
 }
 
 TEST(FilmTracks, FilesBesideTheFilmAreItsOwnByTheirNames) {
   const test::TemporaryFolder folder;
-  for (const char* name : {"a film.mkv", "a film.srt", "a film.de.ASS", "a film 2.srt", "a film.txt", "other.srt"}) {
+  for (const char* name : {"a film.mkv", "a film.srt", "a film.de.ASS", "a film.de.Forced.srt", "a film 2.srt",
+                           "a film.txt", "other.srt"}) {
     std::ofstream(folder / name) << "x";
   }
   std::vector<std::string> found;
   for (const FilmTrack& file : subtitleFilesOf(folder / "a film.mkv")) {
     found.push_back(file.path.substr(file.path.rfind('/') + 1) + " " + file.language + " " + file.codec);
   }
-  EXPECT_THAT(found, ElementsAre("a film.de.ASS de ass", "a film.srt  srt"));
+  EXPECT_THAT(found, ElementsAre("a film.srt  srt", "a film.de.ASS de ass", "a film.de.Forced.srt de.Forced srt"));
   EXPECT_THAT(subtitleFilesOf("http://host/film.mkv"), IsEmpty());
 }
 

@@ -74,6 +74,22 @@ TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   EXPECT_EQ(folders(machineWith(false, false), {"--control", "/run/r"}), none) << "cannot be seen off screen";
 }
 
+TEST(Options, TheLanguageIsThatOfTheDesktopsMessages) {
+  const auto language = [] {
+    return parse({"film.mkv"}, machineWith(true, true)).options->play.player.source.desktop_language;
+  };
+  ::unsetenv("LC_ALL");
+  ::unsetenv("LC_MESSAGES");
+  ::setenv("LANG", "de_DE.UTF-8", 1);
+  EXPECT_EQ(language(), "de_DE.UTF-8");
+  ::setenv("LC_MESSAGES", "fr_FR.UTF-8", 1);
+  EXPECT_EQ(language(), "fr_FR.UTF-8");
+  ::setenv("LC_ALL", "", 1);
+  EXPECT_EQ(language(), "fr_FR.UTF-8") << "an empty one says nothing";
+  ::unsetenv("LC_MESSAGES");
+  ::unsetenv("LC_ALL");
+}
+
 TEST(Options, WithoutADesktopItTakesTheScreen) {
   EXPECT_EQ(devicesOf(parse({"film.mkv"}, machineWith(false, true)).options->play), "kms pointer evdev alsa");
 }
