@@ -126,9 +126,7 @@ void Player::begin(MonotonicTime now) {
     touch_.setLookAhead(film_.lookAhead());
     screen_.setScene(calibration, volume, film_.period(), now);
     announce(volume);
-    if (journal_.written().films.size() == 1) {
-      screen_.text().hint(firstHint(), now);
-    }
+    screen_.setFirstHint(firstHint());
   }
   if (film_.takeJump()) touch_.beginEpoch();
   const MediaTime first = film_.picture().color.pts;

@@ -71,7 +71,11 @@ Result<bool> FilmScreen::show(const FramePair& pair, std::optional<Duration> lat
     return seen;
   }
   ++shown_;
-  if (!first_shown_) first_shown_ = clock_.now();
+  if (!first_shown_) {  // the first drawing may have taken long
+    first_shown_ = clock_.now();
+    text_.wake(*first_shown_);
+    if (!first_hint_.empty()) text_.hint(first_hint_, *first_shown_);
+  }
   return true;
 }
 

@@ -42,6 +42,8 @@ class FilmScreen {
 
   // A film begins: sets how to read its depth, the volume that it fills, and its frame period.
   void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
+  // To be shown with the first picture of all: what a viewer can do.
+  void setFirstHint(std::string words) { first_hint_ = std::move(words); }
   void announce(const AnnouncedFilm& film) { picture_.announce(film); }
   // Files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
@@ -107,6 +109,7 @@ class FilmScreen {
   Picture picture_;
   DepthCalibration calibration_;
   ComingRelief coming_;
+  std::string first_hint_;
   std::string screenshot_film_;                  // for the screenshot that is due
   std::deque<std::future<std::string>> saving_;  // screenshots being written: the notice for each
   ScreenText text_;

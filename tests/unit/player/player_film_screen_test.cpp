@@ -18,7 +18,10 @@ class FilmScreenTest : public testing::Test {
   void make() {
     screen_.reset();  // before its display
     profile_.refresh_period = Duration(0);
-    profile_.shown = [this] { ++presented_; };
+    profile_.shown = [this] {
+      ++presented_;
+      clock_.sleepUntil(clock_.now() + drawing_);
+    };
     display_ = makeMockDisplay(profile_, clock_, cable_);
     screen_.emplace(*display_, config_, stereo_, true, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open());
@@ -53,6 +56,7 @@ class FilmScreenTest : public testing::Test {
   std::unique_ptr<Display> display_;
   std::optional<FilmScreen> screen_;
   int presented_ = 0;
+  Duration drawing_{0};  // of each picture
 };
 
 struct Wish {
@@ -118,6 +122,18 @@ TEST_F(FilmScreenTest, WhileASignalIsSentTheLayoutStays) {
   EXPECT_TRUE(show());
   EXPECT_EQ(report().stereo, "tab");
   EXPECT_TRUE(noted("--tv-signal off"));
+}
+
+TEST_F(FilmScreenTest, TheFirstHintLastsFromTheFirstPictureOnHoweverSlowlyThatIsDrawn) {
+  const auto hint = [&](Duration later) { return screen_->text().content({}, {}, clock_.now() + later).hint; };
+  make();
+  screen_->setFirstHint("press");
+  drawing_ = 5000 * kMs;
+  EXPECT_TRUE(show());
+  EXPECT_EQ(hint(1900 * kMs), "press");
+  EXPECT_TRUE(screen_->text().showsBar({}, clock_.now() + 3900 * kMs));
+  EXPECT_TRUE(show());
+  EXPECT_EQ(hint(Duration(0)), "") << "once";
 }
 
 TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
