@@ -94,6 +94,11 @@ bool tellWrongValue(const CLI::App& program, const std::string& what) {
     return true;
   }
   const bool flag = isFlag(*option), often = what.find("At Most") != std::string::npos;
+  if (begin > 0 && !flag) {
+    const std::string value = what.substr(std::min(what.size(), begin + name.size() + 3));  // after " = "
+    log(LogLevel::Error, name.c_str(), "%s is not a number; see %s --help", value.c_str(), commandOf(program).c_str());
+    return true;
+  }
   if (!flag && !often) return false;
   log(LogLevel::Error, name.c_str(), "%s; see %s --help", flag ? "takes no value" : "was given more than once",
       commandOf(program).c_str());

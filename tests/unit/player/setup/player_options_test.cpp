@@ -163,6 +163,7 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--material", "stiffness=soft"}, "--material stiffness=soft");
   expectRefused({"probe", "film.mkv", "--material", "friction=.1/.2"}, "friction=.1/.2");
   expectRefused({"play", "film.mkv", "--material", "stiffness=.3,hardness=9"}, "--material hardness=9: no part of a");
+  expectRefused({"play", "film.mkv", "--duration", "0:02"}, "relievo: --duration: 0:02 is not a number; see");
   expectRefused({"play", "film.mkv", "--rate", "fast"}, "--rate: fast is not a number; give one between 500 and 8000");
   expectRefused({"play", "film.mkv", "--fps", "0"}, "--fps: 0 is not between 0.01 and 10000");
   expectRefused({"play", "film.mkv", "--duration", "-1"}, "--duration -1: ");
