@@ -18,8 +18,9 @@ void Journal::stateChanged(PlayerState state) {
 void Journal::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {
   const MonotonicTime time = when.value_or(clock_.now());
   const bool fresh = report_.addFault(sinceBegin(time), what, done);
-  if (fresh) log(LogLevel::Warning, "play", "%s; %s", what.c_str(), done.c_str());
-  if (listener_) listener_({sinceBegin(time), what, done}, time, fresh);
+  const FaultEntry fault{sinceBegin(time), what, done};
+  if (fresh) log(LogLevel::Warning, "play", "%s", fault.sentence().c_str());
+  if (listener_) listener_(fault, time, fresh);
 }
 
 void Journal::noteStop(const std::string& what) {

@@ -29,7 +29,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
       journal_(parts_.clock,
                [this](const FaultEntry& fault, MonotonicTime when, bool fresh) {
                  if (parts_.control != nullptr) parts_.control->happened(fault);
-                 if (fresh) screen_.text().tell(fault.what, when);
+                 if (fresh) screen_.text().tell(fault.sentence(), when);
                }),
       files_(config_.own_threads ? FileWriter::Where::OwnThread : FileWriter::Where::AtOnce),
       programme_(config_.resume_path, files_, config_.loop),

@@ -26,6 +26,8 @@ struct FaultEntry {
   std::string what;
   std::string done;
   std::uint64_t count = 1;
+
+  [[nodiscard]] std::string sentence() const { return what + "; " + done; }
 };
 
 // The second finger's part of the report, if two devices were requested.

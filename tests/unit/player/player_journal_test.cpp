@@ -30,6 +30,7 @@ TEST(Journal, TellsEachFaultAndWhichAreNew) {
   EXPECT_EQ(fresh, (std::vector<bool>{true, false, false}));
   ASSERT_EQ(heard.size(), 3U);
   EXPECT_EQ(heard[0].time_s, 2);
+  EXPECT_EQ(heard[0].sentence(), "display lost; it is tried again");
   EXPECT_EQ(heard[2].done, "stopped");
   const auto& faults = journal.written().faults;
   ASSERT_EQ(faults.size(), 3U);
