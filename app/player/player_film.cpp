@@ -2,6 +2,7 @@
 // What the player does within a film: carries out commands, waits for the reader, and follows the clock.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/player/player.h"
 #include "platform/log.h"
@@ -88,6 +89,9 @@ void Player::followOpening(MonotonicTime now) {
   apply(PlayerEvent::Opened);
   failure_.reset();
   programme_.opened();
+  if (std::exchange(config_.unseen, false)) {
+    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
+  }
   journal_.filmOpened(film_.opened());
   beginWords();
   const auto left = programme_.whereLeft(film_.info().duration);

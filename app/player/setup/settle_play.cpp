@@ -8,8 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "platform/log.h"
-
 namespace relievo {
 namespace {
 
@@ -54,9 +52,7 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
   };
   if (!window && play.remote.plain("window")) return none("--remote window");
   if (!window && play.player.mouse_touches) return none("--haptic pointer:window");
-  if (!chosen && !seen) {
-    log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
-  }
+  play.player.unseen = !chosen && !seen;
   return {};
 }
 

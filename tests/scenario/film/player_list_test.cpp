@@ -172,6 +172,25 @@ TEST_F(PlayerLists, OfTwoMissingFilmsTheFirstIsTheFailureAndBothAreReported) {
   EXPECT_EQ(bench_.report.frames_shown, 50u);
 }
 
+// A film that is missing gets its own line alone.
+TEST_F(PlayerLists, ThatItPlaysOffScreenIsSaidOnceAndOnlyOfAFilmThatPlays) {
+  const auto times_said = [&] {
+    setLogLevel(LogLevel::Info);
+    bench_.config.unseen = true;
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(bench_.run().has_value(), bench_.sources.contains("./a"));
+    const std::string words = testing::internal::GetCapturedStderr();
+    setLogLevel(LogLevel::Error);
+    int times = 0;
+    for (std::size_t at = 0; (at = words.find("off screen", at)) != std::string::npos; ++at) ++times;
+    return times;
+  };
+  aList();
+  EXPECT_EQ(times_said(), 1);
+  for (const char* film : {"./a", "./b", "./c"}) bench_.sources.erase(film);
+  EXPECT_EQ(times_said(), 0);
+}
+
 TEST_F(PlayerLists, BackwardsWhatIsMissingIsPassedOverBackwards) {
   aList();
   bench_.sources.erase("./b");
