@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/control_client.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/x_screen.h"
 
@@ -274,6 +275,29 @@ TEST_F(PlayerWindow, ItsBarIsPressedAndDragged) {
   EXPECT_NEAR(r["seeks"][0]["target_s"].get<double>(), (240.5 - kMargin) / (kWidth - 2 * kMargin) * kLength, 0.02);
   EXPECT_NEAR(r["seeks"][1]["target_s"].get<double>(), (160.5 - kMargin) / (kWidth - 2 * kMargin) * kLength, 0.02);
   EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
+}
+
+// Otherwise the wheel is the finger's.
+TEST_F(PlayerWindow, OverTheBarTheWheelIsTheVolumeAlsoOfAMouseThatTouches) {
+  ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
+  const auto player = play({"--haptic", "pointer", "--audio", "null", "--control", folder_ / "control"});
+  test::ControlClient control(folder_ / "control");
+  const auto volume = [&] { return control.ask("status")["volume"].get<double>(); };
+  const auto turnAt = [&](double row) {
+    screen_->moveMouse(place_.x + 160, place_.y + static_cast<int>(row / 720 * kHeight));
+    std::this_thread::sleep_for(300ms);
+    screen_->button(5, true);
+    screen_->button(5, false);
+  };
+  EXPECT_TRUE(until([&] { return shows(); }));
+  turnAt(664);
+  EXPECT_TRUE(until([&] { return volume() == 95; })) << volume();
+  turnAt(200);
+  std::this_thread::sleep_for(300ms);
+  EXPECT_EQ(volume(), 95);
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  ::unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(PlayerWindow, WithoutADesktopItSaysSoInOneLine) {

@@ -132,7 +132,7 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
   if (touches) {
     rows = {{"Hold the mouse button", "touch the film there"}, {"Wheel", "the finger away from you, or nearer"}};
   }
-  if (!touches) rows.emplace_back("Wheel", "louder, or quieter");
+  rows.emplace_back(touches ? "Wheel over the bar" : "Wheel", "louder, or quieter");
   rows.emplace_back("Click or drag on the bar", "to that time");
   rows.emplace_back("Double click", "full screen on or off");
   rows.emplace_back("Right click", "pause or continue");
