@@ -53,7 +53,7 @@ std::string Player::fileName() const {
 
 void Player::tellStatus(MonotonicTime now) {
   if (parts_.status == nullptr || !parts_.status->isDue(now) || !film_.isOpen()) return;
-  parts_.status->show(facts(), report(), forcesOf(touch_.marks()), now);
+  parts_.status->show(facts(), report(), forcesOf(touch_.marks()), screen_.text().noticed(now), now);
 }
 
 // The report is long: it is made once a second, and only while it is shown.

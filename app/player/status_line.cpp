@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "platform/log.h"
+#include "platform/plain_text.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -32,8 +33,9 @@ std::string timesOf(const ScreenFacts& facts) {
 }  // namespace
 
 std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
-                       std::size_t columns) {
+                       const std::string& notice, std::size_t columns) {
   std::string text = std::string(name(facts.state)) + " " + timesOf(facts);
+  if (!notice.empty()) text += "  " + oneLine(notice);  // it may hold words of the film
   if (facts.rate != 1) text += print("  %gx", facts.rate);
   if (facts.films > 1) text += print("  film %zu of %zu", facts.film, facts.films);
   text += print("  dropped %llu", static_cast<unsigned long long>(report.frames_dropped));
@@ -55,9 +57,9 @@ StatusLine::StatusLine() : on_terminal_(::isatty(STDERR_FILENO) == 1) {
 }
 
 void StatusLine::show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
-                      MonotonicTime now) {
+                      const std::string& notice, MonotonicTime now) {
   due_ = now + kPeriod;
-  showStatusLine(statusText(facts, report, forces_n, columnsOfTerminal()));
+  showStatusLine(statusText(facts, report, forces_n, notice, columnsOfTerminal()));
 }
 
 void StatusLine::clear() noexcept {

@@ -11,9 +11,10 @@
 
 namespace relievo {
 
-// "playing 0:12 / 1:30 (13 %)  2x  dropped 0  force 1.25 N  late ticks 0", at most `columns` long.
+// "playing 0:12 / 1:30 (13 %)  Volume 95 %  2x  dropped 0  force 1.25 N  late ticks 0", at most `columns` long.
+// `notice`: what a key has changed, if that was a moment ago.
 [[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
-                                     std::size_t columns);
+                                     const std::string& notice, std::size_t columns);
 
 // Prints on standard error, if that is a terminal. Player's thread only.
 class StatusLine {
@@ -27,7 +28,8 @@ class StatusLine {
 
   // False without a terminal, and too soon after the last line.
   [[nodiscard]] bool isDue(MonotonicTime now) const noexcept { return on_terminal_ && now >= due_; }
-  void show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n, MonotonicTime now);
+  void show(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n, const std::string& notice,
+            MonotonicTime now);
   void clear() noexcept;
 
  private:

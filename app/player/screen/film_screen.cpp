@@ -119,7 +119,7 @@ void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, Mon
 }
 
 void FilmScreen::turnKeys(ScreenRows rows) {
-  if (!osd_ && !text_.hasList()) return;
+  if (!osd_ && !text_.hasList()) return text_.notice({"All keys: relievo play --help", std::nullopt}, clock_.now());
   const TextFrame frame = picture_.textFrame();
   const std::size_t pages = keyPages(rows, frame.aspect, frame.height);
   text_.turnKeys(std::move(rows), pages);

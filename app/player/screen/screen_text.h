@@ -87,6 +87,8 @@ class ScreenText {
   void forgetWarning() noexcept { told_until_ = {}; }
   // Shows the effect of a key.
   void notice(ScreenNotice notice, MonotonicTime now);
+  // The words of the notice that is shown now.
+  [[nodiscard]] std::string noticed(MonotonicTime now) const { return now < noticed_until_ ? notice_.words : ""; }
   void hint(std::string words, MonotonicTime now);
   // The list of films, shown only with warnings, notices and keys; nullopt: a film is shown.
   void setList(std::optional<ScreenList> list) { list_ = std::move(list); }

@@ -23,7 +23,7 @@ class FilmScreenTest : public testing::Test {
       clock_.sleepUntil(clock_.now() + drawing_);
     };
     display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, config_, stereo_, true, clock_, journal_, files_);
+    screen_.emplace(*display_, config_, stereo_, osd_, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open());
   }
   bool show() { return screen_->show({}, {}, {}, {}, clock_.now()).value_or(false); }
@@ -56,6 +56,7 @@ class FilmScreenTest : public testing::Test {
   std::unique_ptr<Display> display_;
   std::optional<FilmScreen> screen_;
   int presented_ = 0;
+  bool osd_ = true;
   Duration drawing_{0};  // of each picture
 };
 
@@ -134,6 +135,14 @@ TEST_F(FilmScreenTest, TheFirstHintLastsFromTheFirstPictureOnHoweverSlowlyThatIs
   EXPECT_TRUE(screen_->text().showsBar({}, clock_.now() + 3900 * kMs));
   EXPECT_TRUE(show());
   EXPECT_EQ(hint(Duration(0)), "") << "once";
+}
+
+TEST_F(FilmScreenTest, WithoutTextOverThePictureTheKeysAreInTheProgramsHelp) {
+  osd_ = false;
+  make();
+  screen_->turnKeys({{"q", "end the program"}});
+  EXPECT_FALSE(screen_->text().showsKeys());
+  EXPECT_EQ(screen_->text().noticed(clock_.now()), "All keys: relievo play --help");
 }
 
 TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {

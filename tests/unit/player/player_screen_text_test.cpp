@@ -130,6 +130,8 @@ TEST(ScreenText, ANoticeAndTheHintStandForTwoSeconds) {
   text.hint("press", kStart);
   EXPECT_EQ(at(text, playing(), kStart + seconds(1)).notice->words, "Volume 80 %");
   EXPECT_EQ(at(text, playing(), kStart + seconds(1)).hint, "press");
+  EXPECT_EQ(text.noticed(kStart + seconds(1)), "Volume 80 %") << "for the terminal";
+  EXPECT_EQ(text.noticed(kStart + seconds(2)), "");
   EXPECT_FALSE(at(text, playing(), kStart + seconds(1)).bar) << "a value needs no bar";
   EXPECT_TRUE(at(text, playing(), kStart + seconds(2)).empty());
 }
