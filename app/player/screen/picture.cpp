@@ -189,12 +189,15 @@ void Picture::nextLayout() noexcept {
   if (isBound()) return;
   do {
     stereo_.layout = static_cast<StereoLayout>((static_cast<int>(stereo_.layout) + 1) % kStereoLayouts);
-  } while (refusal(stereo_, width_, height_) != nullptr);  // mono is never refused
+  } while (refusal(stereo_, width_, height_) != nullptr ||  // mono is never refused
+           (stereo_.layout == StereoLayout::Quilt && !lenticular_));
   stereoChanged();
 }
 
 void Picture::setLayout(std::string_view word) noexcept {
-  if (!isBound() && parseStereo(word, stereo_)) stereoChanged();
+  if (isBound() || !parseStereo(word, stereo_)) return;
+  lenticular_ = lenticular_ || stereo_.layout == StereoLayout::Quilt;
+  stereoChanged();
 }
 
 void Picture::swapEyes() noexcept {

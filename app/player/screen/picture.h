@@ -34,7 +34,7 @@ class Picture {
   };
 
   Picture(Display& display, const DisplayConfig& config, const StereoSettings& stereo) noexcept
-      : display_(display), config_(config), stereo_(stereo) {}
+      : display_(display), config_(config), stereo_(stereo), lenticular_(stereo.layout == StereoLayout::Quilt) {}
   ~Picture() { close(); }
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
@@ -121,6 +121,7 @@ class Picture {
   DisplayConfig config_;
   AnnouncedFilm film_;
   StereoSettings stereo_;
+  bool lenticular_;                           // a quilt was asked for: the screen is one for it
   StereoSignal signal_ = StereoSignal::None;  // sent with the picture
   bool signal_told_ = false;                  // it was reported that this signal is not the requested one
   const char* refusal_ = nullptr;

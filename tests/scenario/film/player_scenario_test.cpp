@@ -177,7 +177,7 @@ TEST_F(PlayerScenario, ASeekThatTheSourceRefusesGoesOn) {
 TEST_F(PlayerScenario, The3dModeKeyGoesRoundTheLayoutsThatTheScreenTakes) {
   double time_s = 1.0;
   // After side by side. This screen takes no frame packing.
-  for (const char* layout : {"tab", "rows", "columns", "anaglyph", "quilt:8x6", "mono", "sbs"}) {
+  for (const char* layout : {"tab", "rows", "columns", "anaglyph", "mono", "sbs"}) {
     bench_.press(time_s, KEY_3D_MODE);
     time_s += 0.2;
     playsWell();

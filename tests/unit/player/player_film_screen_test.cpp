@@ -137,6 +137,26 @@ TEST_F(FilmScreenTest, TheFirstHintLastsFromTheFirstPictureOnHoweverSlowlyThatIs
   EXPECT_EQ(hint(Duration(0)), "") << "once";
 }
 
+// Elsewhere many small pictures are of no use.
+TEST_F(FilmScreenTest, AQuiltIsAmongTheLayoutsOnceItWasAskedFor) {
+  const auto next = [&](const char* word) {
+    screen_->obey({.verb = PlayerVerb::Layout, .value = 0, .word = word});
+    return std::string(report().stereo);
+  };
+  stereo_ = {.layout = StereoLayout::Anaglyph};
+  make();
+  EXPECT_TRUE(show());
+  EXPECT_EQ(next(""), "mono");
+  EXPECT_EQ(next("quilt"), "quilt:8x6");
+  EXPECT_EQ(next("anaglyph"), "anaglyph");
+  EXPECT_EQ(next(""), "quilt:8x6");
+  stereo_ = {.layout = StereoLayout::Quilt};
+  make();
+  EXPECT_TRUE(show());
+  EXPECT_EQ(next("anaglyph"), "anaglyph");
+  EXPECT_EQ(next(""), "quilt:8x6");
+}
+
 TEST_F(FilmScreenTest, WithoutTextOverThePictureTheKeysAreInTheProgramsHelp) {
   osd_ = false;
   make();
