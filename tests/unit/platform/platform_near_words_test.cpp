@@ -24,6 +24,7 @@ TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
   EXPECT_EQ(nearestWord("--repot", words), "--report");
   EXPECT_EQ(nearestWord("--window", words), "");
   EXPECT_EQ(nearestWord("x", {}), "");
+  EXPECT_EQ(nearestWord("--fs", std::vector<std::string>{"--as"}), "") << "one letter of two is another word";
   EXPECT_EQ(nearestWord("paly", std::vector<std::string>{"probe", "play"}), "play");
   EXPECT_EQ(inSmallLetters("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
 }
