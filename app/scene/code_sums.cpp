@@ -45,7 +45,8 @@ class Lanes {
     keep_end_ = keep_ & load(kEnd.data() + bytes_ - whole_);
   }
   void addRow(const std::uint8_t* row) RELIEVO_RT {
-    for (std::ptrdiff_t at = 0; at < whole_; at += 16) add(load(row + at) & keep_);
+    constexpr bool kWholeBytes = Sample::kBytes == 1;  // each bit of a vector counts
+    for (std::ptrdiff_t at = 0; at < whole_; at += 16) add(kWholeBytes ? load(row + at) : load(row + at) & keep_);
     if (whole_ < bytes_) add(load(row + bytes_ - 16) & keep_end_);
   }
   // A row of under 16 bytes, and of 8 or more: its last eight, without those that are among its first eight.
@@ -129,8 +130,8 @@ template <class Sample>
 std::uint32_t sumOf(const CodeBlock& block, std::uint32_t mask) RELIEVO_RT {
   constexpr bool kLittle = std::endian::native == std::endian::little;
   if (kLittle && block.step_bytes == Sample::kBytes && block.across >= Lanes<Sample>::kFewest) {
-    const int most_down = Lanes<Sample>::kMost / (block.across + Lanes<Sample>::kOfVector);
-    return block.down <= most_down ? sumOfLanes<Sample>(block, mask) : sumOfParts<Sample>(block, mask);
+    const bool fits = block.down * (block.across + std::int64_t{Lanes<Sample>::kOfVector}) <= Lanes<Sample>::kMost;
+    return fits ? sumOfLanes<Sample>(block, mask) : sumOfParts<Sample>(block, mask);
   }
   switch (block.across) {  // with the row length known at compile time this takes half the instructions
     case 2:

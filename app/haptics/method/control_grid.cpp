@@ -120,8 +120,9 @@ void ControlGrid::read(std::size_t p, const Frames& frames, std::uint32_t missin
     const auto slot = static_cast<std::size_t>(__builtin_ctz(missing));
     const auto bit = static_cast<std::uint8_t>(1U << slot);
     const HeightField& field = frames.window->frames[frames.frame_of_slot[slot]].field;
-    const double mean =
-        outside ? HeightField::kHole : meanOrBridged(field, static_cast<int>(c0), static_cast<int>(r0), block);
+    const int c = static_cast<int>(c0), r = static_cast<int>(r0);
+    double mean = outside ? HeightField::kHole : field.meanHeight(c, r, block);
+    if (std::isnan(mean) && !outside) mean = bridged(field, c, r, block);
     ++blocks_read_;
     filled_[p] |= bit;
     if (std::isnan(mean)) hole_[p] |= bit;
@@ -193,9 +194,7 @@ void ControlGrid::keepCurvature(int i, int j, std::uint32_t missing) RELIEVO_RT 
 }
 
 // A hole narrower than the blocks around it, such as a dead sample, is filled from the neighbouring blocks.
-double ControlGrid::meanOrBridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT {
-  const double mean = field.meanHeight(c, r, block);
-  if (!std::isnan(mean)) return mean;
+double ControlGrid::bridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT {
   const int left = std::max(c - block_.width, 0), right = std::min(c + block.width + block_.width, cols_);
   const int top = std::max(r - block_.height, 0), bottom = std::min(r + block.height + block_.height, rows_);
   return field.meanHeight(left, top, field.blockOf(right - left, bottom - top, 3 * most_samples_));

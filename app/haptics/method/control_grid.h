@@ -116,8 +116,7 @@ class ControlGrid {
   };
   [[nodiscard]] Lacking prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
-  [[nodiscard]] double meanOrBridged(const HeightField& field, int c, int r,
-                                     const SampledBlock& block) const RELIEVO_RT;
+  [[nodiscard]] double bridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT;
   void weighted(const Heights& of_points, int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 

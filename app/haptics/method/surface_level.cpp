@@ -3,7 +3,6 @@
 #include "app/haptics/method/surface_level.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "platform/prefetch.h"
@@ -59,11 +58,11 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
 // Frames that come together, after a late picture, a seek or a cut, are read one in a tick, and what the law needs
 // besides bit by bit (`readLacking`): until then the surface in time is that of fewer frames.
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT {
-  constexpr int kNewAtOnce = 1;
+  const auto several = [](std::uint32_t bits) RELIEVO_RT { return (bits & (bits - 1)) != 0; };
   out.moment = moment;
   out.law = time_;
   place(slots, frameWeights(moment, out.law), out.frames);
-  while (out.law != TimeLaw::Hold && std::popcount(out.frames.wanted & ~grid_.slotsRead()) > kNewAtOnce) {
+  while (out.law != TimeLaw::Hold && several(out.frames.wanted & ~grid_.slotsRead())) {
     out.law = fewerFrames(out.law);
     place(slots, frameWeights(moment, out.law), out.frames);
   }
@@ -217,12 +216,11 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   if (weighed_.law != time_) readLacking(slots, next, cell);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes between the two frames jumps, so it has no rate.
-  const float pit = grid_.pitMm();
+  const Float4 pit = Float4{} + grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
-    for (int i = 0; i < 4; ++i) {
-      if ((prepared_rate_[j][i] == pit) != (prepared_[j][i] == pit)) prepared_rate_[j][i] = prepared_[j][i];
-    }
-    prepared_rate_[j] = (prepared_rate_[j] - prepared_[j]) / static_cast<float>(step_s);
+    const Float4 here = prepared_[j], then_there = prepared_rate_[j];
+    const auto jumps = (then_there == pit) != (here == pit);
+    prepared_rate_[j] = jumps ? Float4{} : (then_there - here) / static_cast<float>(step_s);
   }
 }
 
