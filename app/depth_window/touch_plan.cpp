@@ -94,21 +94,33 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
+// What the samples of a row tell, in mm that a step of code has on average: under the inverse law a step is higher far
+// away (HeightField::stretchAt), and the number of codes between two samples tells steps and noise.
+struct Across {
+  std::vector<double> bends;
+  std::size_t edges = 0;
+  double quantum = std::numeric_limits<double>::infinity();
+  double stretch2 = 0;  // sum of the squares
+};
+
 // A smooth surface is straight across neighbouring samples of a row, so the second difference is noise with 6 times its
 // variance; the median ignores edges.
-void lookAcross(const HeightField& field, std::vector<double>& bends, std::size_t& edges, double& quantum) {
+void lookAcross(const HeightField& field, Across& found) {
   Lattice::forPlaces(field, [&](int c, int r) {
     const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
-    const double bend = std::abs(left - 2 * here + right);
     // Values at either end of the range are often painted and free of noise.
-    if (std::isnan(bend) || here <= 0 || here >= field.depthMm()) return;
-    bends.push_back(bend);
-    const double step = std::abs(right - here);
+    if (std::isnan(left + here + right) || here <= 0 || here >= field.depthMm()) return;
+    // From one height to another, steps are as high as halfway between them, in the geometric mean.
+    const auto stretch = [&](double a, double b) { return std::sqrt(field.stretchAt(a) * field.stretchAt(b)); };
+    const double before = (here - left) / stretch(left, here), after = (right - here) / stretch(here, right);
+    const double bend = std::abs(after - before);
+    found.bends.push_back(bend);
+    found.stretch2 += field.stretchAt(here) * field.stretchAt(here);
     // On a steep slope every step exceeds one quantum, but the differences between steps do not.
-    for (const double d : {step, bend}) {
-      if (d > kRoundingMm && d < kEdgeMm) quantum = std::min(quantum, d);
+    for (const double d : {std::abs(after), bend}) {
+      if (d > kRoundingMm && d < kEdgeMm) found.quantum = std::min(found.quantum, d);
     }
-    if (std::max(step, std::abs(here - left)) > kEdgeMm) ++edges;
+    if (std::max(std::abs(right - here), std::abs(here - left)) > kEdgeMm) ++found.edges;
   });
 }
 
@@ -128,12 +140,11 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   ClipMeasure m;
   m.frames = static_cast<int>(frames.size());
   if (frames.empty()) return m;
-  std::vector<double> bends, speeds;
-  std::size_t edges = 0;
-  double quantum = std::numeric_limits<double>::infinity();
+  Across across;
+  std::vector<double> speeds;
   m.still = true;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    lookAcross(frames[i].field, bends, edges, quantum);
+    lookAcross(frames[i].field, across);
     if (i > 0 && frames[i].shot == frames[i - 1].shot) lookAhead(frames[i - 1], frames[i], speeds, m.still);
   }
   if (frames.size() > 1) {
@@ -142,15 +153,19 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
   m.quantum_mm = frames.front().field.stepMm();
   m.whole_rows = frames.front().field.blockOf(kWideBlock, kWideBlock, 1).across.count == kWideBlock;
-  if (bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
-  m.edges = static_cast<double>(edges) / static_cast<double>(bends.size());
-  if (std::isfinite(quantum)) m.quantum_mm = quantum;
+  if (across.bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
+  const auto places = static_cast<double>(across.bends.size());
+  m.edges = static_cast<double>(across.edges) / places;
   m.flicker_mm = flickerMm(frames);
   m.ripples = ripplesOf(frames);
   // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
-  const double deviation = quantile(bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
-  const double of_quantum = kStepAsNoise * m.quantum_mm;
-  m.noise_mm = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
+  const double deviation = quantile(across.bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
+  const double quantum = std::isfinite(across.quantum) ? across.quantum : m.quantum_mm;
+  const double of_quantum = kStepAsNoise * quantum;
+  const double noise = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
+  const double stretch = std::sqrt(across.stretch2 / places);
+  m.quantum_mm = stretch * quantum;
+  m.noise_mm = stretch * noise;
   m.speed_mm_per_s =
       std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;

@@ -76,6 +76,12 @@ class HeightField {
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
   // The height of one code step, averaged over the volume.
   [[nodiscard]] double stepMm() const RELIEVO_RT { return depth_mm_ * std::abs(s_scale_); }
+  // How high a code step is at a height, in parts of the average one; the inverse law has the highest steps far away.
+  [[nodiscard]] double stretchAt(double height_mm) const RELIEVO_RT {
+    if (!inverse_) return 1;
+    const double away_mm = far_mm_ - height_mm / depth_per_mm_;
+    return depth_per_mm_ / depth_mm_ * away_mm * away_mm * (near_inverse_ - far_inverse_);
+  }
 
   // Whether every sample equals that of another field of the same film. Compares the bytes between the samples too, so
   // it may return false for equal samples. Reads the whole picture: not for the real-time thread.

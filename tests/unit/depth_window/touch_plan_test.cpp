@@ -192,6 +192,38 @@ TEST(TouchPlan, NoiseIsWhatIsMoreThanAStep) {
   EXPECT_NEAR(planTouch(coarse).scale.clamp_mm, 0.3, 1e-9);
 }
 
+// Under the inverse law a code step is a hundred times as high at the far plane as at the near one. What counts is the
+// rms over the picture, and noise of so many codes is as many of these steps.
+TEST(TouchPlan, StepsUnderTheInverseLawAreThoseOfTheWholePicture) {
+  const DepthCalibration calibration{.law = DepthLaw::Inverse, .bits = 8, .near_mm = 500, .far_mm = 5000};
+  constexpr double kPerMm = 4500.0 / 40;  // of the scene, in mm of the volume
+  const GridMapping grid(kVolume, 720, 486);
+  const auto away = [&](int c, int r) { return 5000 - kPerMm * (20 + 0.15 * grid.x(c) + 0.1 * grid.y(r)); };
+  double step2 = 0;
+  for (int r = 0; r < 486; ++r) {
+    for (int c = 0; c < 720; ++c) {
+      const double step = away(c, r) * away(c, r) * (1.0 / 500 - 1.0 / 5000) / 255 / kPerMm;
+      step2 += step * step / (720 * 486);
+    }
+  }
+  const auto measured = [&](double noise_codes) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(0, noise_codes);
+    const Frame frame = makeGrayFrame(720, 486, 8, {}, [&](int c, int r) {
+      const double s = (1 / away(c, r) - 1.0 / 5000) / (1.0 / 500 - 1.0 / 5000);
+      return std::clamp(255 * s + (noise_codes > 0 ? noise(random) : 0), 0.0, 255.0) + 0.5;
+    });
+    const TimedSurface alone{HeightField::make(frame, calibration, kVolume).value(), {}, frame.owner};
+    return measureClip(std::span(&alone, 1));
+  };
+  const ClipMeasure clean = measured(0), noisy = measured(3);
+  EXPECT_NEAR(clean.quantum_mm, std::sqrt(step2), 0.02 * std::sqrt(step2));
+  EXPECT_EQ(clean.noise_mm, 0);
+  EXPECT_NEAR(noisy.quantum_mm, std::sqrt(step2), 0.02 * std::sqrt(step2));
+  EXPECT_NEAR(noisy.noise_mm, 3 * std::sqrt(step2), 0.3 * std::sqrt(step2));
+  EXPECT_GT(planTouch(clean).scale.wide_mm, 1.7) << "no narrower than that of even steps as high";
+}
+
 // Two still pictures with a cut of 20 mm between them: nothing has moved.
 TEST(TouchPlan, ACutIsNoMotion) {
   std::vector<Frame> frames;
