@@ -150,7 +150,8 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   if (frames.size() > 1) {
     m.period_s = toSeconds(frames.back().time - frames.front().time) / static_cast<double>(frames.size() - 1);
   }
-  m.sample_mm = 1 / std::abs(frames.front().field.grid().u_per_mm);
+  const GridMapping& grid = frames.front().field.grid();
+  m.sample_mm = 1 / std::sqrt(std::abs(grid.u_per_mm * grid.v_per_mm));
   m.quantum_mm = frames.front().field.stepMm();
   m.whole_rows = frames.front().field.blockOf(kWideBlock, kWideBlock, 1).across.count == kWideBlock;
   if (across.bends.empty()) return m;  // every value is at an end of the range, so later values are unknown

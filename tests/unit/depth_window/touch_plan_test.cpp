@@ -224,6 +224,21 @@ TEST(TouchPlan, StepsUnderTheInverseLawAreThoseOfTheWholePicture) {
   EXPECT_GT(planTouch(clean).scale.wide_mm, 1.7) << "no narrower than that of even steps as high";
 }
 
+// Samples that are three times as far apart down as across are as many to a square millimetre as square ones of the same
+// area; noise of the same size needs the same smoothing.
+TEST(TouchPlan, SamplesThatAreNotSquareCountByTheirArea) {
+  const auto planned = [](int cols, int rows) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 3);
+    const Frame frame = makeGrayFrame(cols, rows, 8, {}, [&](int c, int) { return 100 + 0.1 * c + noise(random); });
+    const TimedSurface alone{HeightField::make(frame, {.bits = 8}, {120, 120, 40}).value(), {}, frame.owner};
+    return planTouch(measureClip(std::span(&alone, 1))).scale;
+  };
+  const FeltScale square = planned(400, 400), tall = planned(693, 231);
+  EXPECT_NEAR(tall.clamp_mm, square.clamp_mm, 0.06 * square.clamp_mm);
+  EXPECT_NEAR(tall.wide_mm, square.wide_mm, 0.06 * square.wide_mm);
+}
+
 // Two still pictures with a cut of 20 mm between them: nothing has moved.
 TEST(TouchPlan, ACutIsNoMotion) {
   std::vector<Frame> frames;
