@@ -224,8 +224,8 @@ TEST(TouchPlan, StepsUnderTheInverseLawAreThoseOfTheWholePicture) {
   EXPECT_GT(planTouch(clean).scale.wide_mm, 1.7) << "no narrower than that of even steps as high";
 }
 
-// Samples that are three times as far apart down as across are as many to a square millimetre as square ones of the same
-// area; noise of the same size needs the same smoothing.
+// Samples that are three times as far apart down as across are as many to a square millimetre as square ones of the
+// same area; noise of the same size needs the same smoothing.
 TEST(TouchPlan, SamplesThatAreNotSquareCountByTheirArea) {
   const auto planned = [](int cols, int rows) {
     std::mt19937 random(3);
