@@ -28,7 +28,7 @@ TEST_F(AuthorFilm, BringsTwoFilesTogetherWithTheirCodesAndTimes) {
   EXPECT_EQ(summary.totals.color.frames, 30u);
   EXPECT_EQ(summary.totals.depth.frames, 30u);
   EXPECT_EQ(summary.codes.samples, 30u * 64 * 48);
-  EXPECT_TRUE(summary.notes.empty());
+  EXPECT_THAT(summary.notes, testing::ElementsAre(HasSubstr("nothing says which end of the depth is near")));
 
   const Film film = readFilm(folder_ / "out.mkv");
   EXPECT_EQ(film.info.packing, Packing::Tracks);
@@ -106,7 +106,7 @@ TEST_F(AuthorFilm, CutsAnOddSizeOffBothAlike) {
   EXPECT_EQ(summary.format.color_height, 48);
   EXPECT_EQ(summary.format.depth_width, 64);
   EXPECT_EQ(summary.format.depth_height, 48);
-  ASSERT_EQ(summary.notes.size(), 1u);
+  ASSERT_EQ(summary.notes.size(), 2u);
   EXPECT_THAT(summary.notes[0], HasSubstr("1 column and 1 row of the colour, 1 and 1 of the depth"));
   const Film film = readFilm(folder_ / "out.mkv");
   EXPECT_EQ(film.code(0, 63, 47), 110);
