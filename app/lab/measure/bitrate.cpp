@@ -3,6 +3,7 @@
 #include "app/lab/measure/bitrate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -13,12 +14,16 @@
 #include "app/lab/finger/finger_paths.h"
 #include "app/lab/measure/accuracy.h"
 #include "app/lab/measure/contenders.h"
+#include "app/lab/measure/tick_timing.h"
 #include "platform/print.h"
 
 namespace relievo {
 namespace {
 
 constexpr double kFramesPerSecond = 30;
+
+constexpr std::string_view kTimedScene = "face-nodding";
+constexpr int kTimedCrf = 18;
 
 // How recorders paint depth, coded as films are.
 constexpr DepthSteps kColored[] = {DepthSteps::Hue, DepthSteps::HueDisparity, DepthSteps::Turbo};
@@ -97,8 +102,12 @@ Scene makeScene(std::string_view name, double duration_s) {
   return scene;
 }
 
-Result<void> addScene(const Scene& scene, Figures& figures) {
-  const Coding& coding = figures.coding;
+struct CodedFilm {
+  MemoryFilm film;
+  std::uint64_t bytes = 0;
+};
+
+Result<CodedFilm> codedFilm(const Scene& scene, const Coding& coding) {
   std::vector<Frame> steps;
   steps.reserve(scene.frames.size());
   for (const Frame& frame : scene.frames) steps.push_back(requantised(frame, coding.bits, coding.steps));
@@ -108,11 +117,17 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
                                  .quick = true,
                                  .crf = coding.crf});
   if (!coded) return std::unexpected(coded.error());
-  figures.bytes += coded->bytes;
-  const DepthCalibration meaning = meaningOf(coding.bits, coding.steps);
-  const auto film = MemoryFilm::of(coded->frames, meaning);
+  auto film = MemoryFilm::of(coded->frames, meaningOf(coding.bits, coding.steps));
   if (!film) return std::unexpected(film.error());
-  const FilmViews views(*film);
+  return CodedFilm{std::move(*film), coded->bytes};
+}
+
+Result<void> addScene(const Scene& scene, Figures& figures) {
+  const auto coded = codedFilm(scene, figures.coding);
+  if (!coded) return std::unexpected(coded.error());
+  figures.bytes += coded->bytes;
+  const MemoryFilm& film = coded->film;
+  const FilmViews views(film);
   for (const auto& [sum, method] : {std::pair{&figures.force, "relievo"},
                                     {&figures.raw, "god-object"},
                                     {&figures.smoothed, "god-object-smoothed"}}) {
@@ -120,9 +135,38 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
   }
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {
     const auto truth = HeightField::make(scene.frames[i], {.bits = 16}, TrueSurface::kVolume);
-    if (truth) figures.heights.add(film->frames()[i].field, *truth);
+    if (truth) figures.heights.add(film.frames()[i].field, *truth);
   }
   return {};
+}
+
+struct TimedSteps {
+  DepthSteps steps = DepthSteps::Even;
+  TickTimes ticks;
+};
+
+// Ticks of relievo on one scene, as brightness and in colours, in turns, while nothing else is measured; of each the
+// turn that other work on the machine disturbed least.
+Result<std::vector<TimedSteps>> timeSteps(const Scene& scene) {
+  constexpr int kTurns = 4, kRounds = 3;
+  std::vector<TimedSteps> all{{.steps = DepthSteps::Even}};
+  for (const DepthSteps steps : kColored) all.push_back({.steps = steps});
+  std::vector<CodedFilm> films;
+  for (const TimedSteps& timed : all) {
+    auto coded = codedFilm(scene, {.steps = timed.steps, .crf = kTimedCrf});
+    if (!coded) return std::unexpected(coded.error());
+    films.push_back(std::move(*coded));
+  }
+  const std::array methods{contender("relievo")};
+  for (int turn = 0; turn < kTurns; ++turn) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const FilmViews views(films[i].film);
+      const TimedPath path{views, scene.path, static_cast<std::size_t>(kSettledS / FingerPathOptions::kTickS)};
+      const TickTimes ticks = timeTicks(methods, path, kRounds).front();
+      if (turn == 0 || ticks.own_whole.median < all[i].ticks.own_whole.median) all[i].ticks = ticks;
+    }
+  }
+  return all;
 }
 
 double kbitPerSecond(const Figures& f, const Plan& plan) {
@@ -141,6 +185,24 @@ Outcome<void> write(const std::vector<Figures>& all, const Plan& plan, const std
                f.heights.largest(), force.lost_ticks, f.raw.result().rms_percent, f.smoothed.result().rms_percent});
   }
   return table.write(path);
+}
+
+Outcome<void> writeTicks(const std::vector<TimedSteps>& all, const std::string& path) {
+  CsvTable table({"steps", "crf", "whole_own_us", "whole_own_p999_us"});
+  for (const TimedSteps& timed : all) {
+    table.row({name(timed.steps), kTimedCrf, timed.ticks.own_whole.median, timed.ticks.own_whole.p999});
+  }
+  return table.write(path);
+}
+
+std::string tellTicks(const std::vector<TimedSteps>& all) {
+  const double even = all.front().ticks.own_whole.median;
+  std::string text = print(" A tick takes %.2g us on brightness, at crf %d", even, kTimedCrf);
+  for (const TimedSteps& timed : all) {
+    if (timed.steps == DepthSteps::Even) continue;
+    text += print(", %.2f times that on %s", timed.ticks.own_whole.median / even, name(timed.steps));
+  }
+  return text + ".";
 }
 
 // The force error of plain 8-bit H.264 at a bit rate, between its measured qualities; at their ends, that of the end.
@@ -172,7 +234,7 @@ std::string tellColored(const std::vector<Figures>& all, const Plan& plan) {
   return text + ".";
 }
 
-ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
+ChartWords wordsOf(const std::vector<Figures>& all, const std::vector<TimedSteps>& timed, const Plan& plan) {
   const auto find = [&](auto&& wanted) {
     return *std::find_if(all.begin(), all.end(), [&](const Figures& f) { return wanted(f.coding); });
   };
@@ -198,7 +260,7 @@ ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
             tell(atDefault(VideoCodec::H264, 8, DepthSteps::Disparity)).c_str(), tell(exact).c_str(),
             own.raw.result().rms_percent, own.smoothed.result().rms_percent, exact.raw.result().rms_percent,
             exact.smoothed.result().rms_percent) +
-          tellColored(all, plan)};
+          tellColored(all, plan) + tellTicks(timed)};
 }
 
 }  // namespace
@@ -206,6 +268,7 @@ ChartWords wordsOf(const std::vector<Figures>& all, const Plan& plan) {
 Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options) {
   const Plan plan = Plan::of(options.quick);
   std::vector<Figures> all;
+  std::vector<TimedSteps> timed;
   for (const Coding& coding : plan.codings()) all.push_back({.coding = coding});
   for (const std::string_view name : plan.scenes) {
     options.tell(print("%s, %zu codings", std::string(name).c_str(), all.size()));
@@ -214,9 +277,14 @@ Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options) {
     inParallel(all.size(), [&](std::size_t i) { added[i] = addScene(scene, all[i]); });
     const auto failed = std::find_if(added.begin(), added.end(), [](const auto& a) { return !a.has_value(); });
     if (failed != added.end()) return failOn(std::string(name), failed->error());
+    if (name != kTimedScene) continue;
+    auto ticks = timeSteps(scene);
+    if (!ticks) return failOn(std::string(name), ticks.error());
+    timed = std::move(*ticks);
   }
   if (auto done = write(all, plan, options.out + "/bitrate.csv"); !done) return std::unexpected(done.error());
-  return std::vector{wordsOf(all, plan)};
+  if (auto done = writeTicks(timed, options.out + "/bitrate-ticks.csv"); !done) return std::unexpected(done.error());
+  return std::vector{wordsOf(all, timed, plan)};
 }
 
 }  // namespace relievo

@@ -15,6 +15,9 @@ namespace relievo {
 // - `steps`: even; "disparity": by the inverse law, far four times as far as near; "dithered": even, with an ordered
 //   pattern of half a step either way before they are rounded; "hue", "hue-disparity", "turbo": in colours, 4:2:0, as
 //   recorders paint depth. A hole has no height error.
+//
+// Writes bitrate-ticks.csv: relievo's tick on one of the scenes as brightness and in colours, the median and p99.9 over
+// ticks of each tick's median over the rounds.
 // A quick run uses one scene and few qualities.
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options);
 
