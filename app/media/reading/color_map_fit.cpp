@@ -98,7 +98,8 @@ std::vector<double> entriesOf(const Frame& depth, DepthCode code) {
 
 DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationLayers& said) {
   constexpr double kHoles = 0.002, kTimes = 4;
-  if (depth.model == ColorModel::Gray || says(said, {"invalid"})) return {};
+  const bool has_black = code == DepthCode::Kinect;  // for holes
+  if (depth.model == ColorModel::Gray || has_black || says(said, {"invalid"})) return {};
   std::vector<double> entries = entriesOf(depth, code);
   const double all = std::accumulate(entries.begin(), entries.end(), 0.0);
   // Other programs' maps differ by an entry, coding smears by three; the entries beyond are then nearly unused.

@@ -159,6 +159,12 @@ TEST(ColorMapFit, AnEndApartFromTheOtherColoursIsAHole) {
   }
   makeClip(folder / "whole.mkv", {coded([](int c, int r) { return jet(0.2 + depthAt(c, r)); }, "23")});
   EXPECT_EQ(invalidOf(folder / "whole.mkv"), "none");
+  // A Kinect's ramp, from black over blue and cyan to white, has black for holes.
+  const auto kinect = [](double s) {
+    return Rgb{std::max(0.0, 3 * s - 2), std::clamp(3 * s - 1, 0.0, 1.0), std::min(1.0, 3 * s)};
+  };
+  makeClip(folder / "kinect.mkv", {coded([&](int c, int r) { return kinect(c < 16 ? 1 : depthAt(c, r)); }, "23")});
+  EXPECT_EQ(invalidOf(folder / "kinect.mkv"), "0-8");
   makeClip(folder / "slope.mkv", {coded([](int c, int) { return jet(std::max(0.0, (c - 8.0) / kCols)); }, "23")});
   EXPECT_EQ(invalidOf(folder / "slope.mkv"), "none") << "the slope runs into the end";
 }
