@@ -70,12 +70,13 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   last_act = last;
   struct sigaction action{};
   action.sa_handler = onSignal;
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::sigaction(number, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGIO, SIGPWR}) {
+    ::sigaction(number, &action, nullptr);
+  }
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGXCPU, SIGALRM, SIGVTALRM,
-                           SIGPROF, SIGUSR1, SIGUSR2}) {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGVTALRM, SIGPROF}) {
     struct sigaction old{};
     ::sigaction(number, nullptr, &old);
     if (old.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);  // a sanitizer installs its own handlers

@@ -126,7 +126,12 @@ TEST_F(AuthorFilm, ProgramsHelpNamesItsMainOptions) {
 }
 
 TEST_F(AuthorFilm, ProgramLeavesNothingOnASignal) {
-  for (const auto& [number, out] : {std::pair{SIGINT, "out.mkv"}, {SIGTERM, "out.ts"}, {SIGHUP, "out.m3u8"}}) {
+  for (const auto& [number, out] : {std::pair{SIGINT, "out.mkv"},
+                                    {SIGTERM, "out.ts"},
+                                    {SIGHUP, "out.m3u8"},
+                                    {SIGUSR1, "out.m3u8"},
+                                    {SIGXCPU, "out.mkv"},
+                                    {SIGIO, "out.mkv"}}) {
     Process process({std::string(RELIEVO_BIN_DIR) + "/relievo-author", "--scene", "sample", "-o", folder_ / out},
                     folder_ / "said/errors");
     while (!process.catches(number) && process.isRunning()) std::this_thread::yield();
