@@ -11,6 +11,7 @@
 #include <csignal>
 #include <utility>
 
+#include "platform/log.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -20,6 +21,7 @@ constexpr std::size_t kWaiting = 2;       // pictures that the command has not r
 constexpr std::size_t kSaidBytes = 4096;  // of its messages
 constexpr std::size_t kNamed = 60;        // letters of the command in a line
 constexpr std::size_t kTold = 160;        // letters of its last message
+constexpr int kPatienceToWords = 60;      // 5 s of 5 minutes
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
@@ -110,7 +112,7 @@ Outcome<void> DepthCommand::waitFor(Lock& lock, Ready ready) {
     if (stop_.load(std::memory_order_relaxed)) return failOn(setup_.command, kCancelled);
     if (too_much_) return failed("wrote more than was asked for", kTooMuch);
     if (output_ended_) return endedEarly(lock);
-    if (std::chrono::steady_clock::now() - last_moved_ > setup_.patience) {
+    if (isSilent()) {
       const bool late = given_ - answered_ >= kMostLate && waiting_.empty();
       const auto seconds = std::chrono::duration<double>(setup_.patience).count();
       return late ? failed(print("has read %zu pictures more than it has answered", given_ - answered_), kTooLate)
@@ -121,12 +123,22 @@ Outcome<void> DepthCommand::waitFor(Lock& lock, Ready ready) {
   return {};
 }
 
+// True when the patience is over. Long before, it is told once what is waited for.
+bool DepthCommand::isSilent() {
+  const auto silence = std::chrono::steady_clock::now() - last_moved_;
+  if (silence > setup_.patience / kPatienceToWords && !std::exchange(told_, true)) {
+    log(LogLevel::Warning, "depth", "waiting for \"%s\", which reads and writes nothing (up to %g s)",
+        setup_.command.c_str(), std::chrono::duration<double>(setup_.patience).count());
+  }
+  return silence > setup_.patience;
+}
+
 // After the last answer the command must write nothing more and exit with 0.
 Outcome<void> DepthCommand::checkEnd(Lock& lock) {
   while (!output_ended_ || !child_.end()) {
     if (too_much_) return failed("wrote more than was asked for", kTooMuch);
     if (stop_.load(std::memory_order_relaxed)) return failOn(setup_.command, kCancelled);
-    if (std::chrono::steady_clock::now() - last_moved_ > setup_.patience) {
+    if (isSilent()) {
       return failed("does not end after its last picture", kStalled);
     }
     moved_.wait_for(lock, kLook);

@@ -55,6 +55,7 @@ class DepthCommand final : public DepthEstimator {
   template <class Ready>
   [[nodiscard]] Outcome<void> waitFor(Lock& lock, Ready ready);
   [[nodiscard]] Outcome<void> checkEnd(Lock& lock);
+  [[nodiscard]] bool isSilent();
   [[nodiscard]] std::unexpected<Failure> failed(const std::string& what, const Error& error) const;
   [[nodiscard]] std::unexpected<Failure> endedEarly(Lock& lock);
   [[nodiscard]] std::size_t depthBytes() const noexcept;
@@ -75,6 +76,7 @@ class DepthCommand final : public DepthEstimator {
   std::string said_;            // the end of its standard error
   std::size_t given_ = 0, answered_ = 0;
   bool no_more_ = false, output_ended_ = false;
+  bool told_ = false;  // that it is waited for
   std::atomic<bool> too_much_ = false;
   std::chrono::steady_clock::time_point last_moved_;
   std::jthread thread_;  // the last member: it ends before what it uses
