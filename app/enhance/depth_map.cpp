@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <utility>
 
 #include "app/enhance/in_bands.h"
 
@@ -20,19 +19,18 @@ void set(DepthMap& map, std::size_t i, double code) {
 
 }  // namespace
 
-Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration, DepthMap memory) {
+Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration) {
   DepthCalibration linear = calibration;
   linear.law = DepthLaw::Linear;
   const DisplayVolume volume{.width_mm = 1, .height_mm = 1, .depth_mm = static_cast<double>(DepthMap::kHighest)};
   const auto field = HeightField::make(depth, linear, volume);
   if (!field) return std::unexpected(field.error());
-  return mapOf(*field, std::move(memory));
+  return mapOf(*field);
 }
 
-DepthMap mapOf(const HeightField& field, DepthMap memory) {
+DepthMap mapOf(const HeightField& field) {
   const double code_per_mm = static_cast<double>(DepthMap::kHighest) / field.depthMm();
-  DepthMap map = std::move(memory), by_code(static_cast<int>(field.codeCount()), 1);
-  map.resize(field.cols(), field.rows());
+  DepthMap map(field.cols(), field.rows()), by_code(static_cast<int>(field.codeCount()), 1);
   for (std::size_t code = 0; code < by_code.size(); ++code) {
     set(by_code, code, field.heightOfCode(static_cast<std::uint32_t>(code)) * code_per_mm);
   }

@@ -29,22 +29,15 @@ struct DepthMap {
 
   DepthMap() = default;
   DepthMap(int width, int height) : cols(width), rows(height), codes(size()), holes(size()) {}
-  // The codes are then unspecified.
-  void resize(int width, int height) {
-    cols = width;
-    rows = height;
-    codes.resize(size());
-    holes.resize(size());
-  }
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(cols) * rows; }
   [[nodiscard]] std::size_t at(int c, int r) const noexcept { return static_cast<std::size_t>(r) * cols + c; }
 };
 
-// Unsupported if the frame lacks the component that the calibration names. The result is written over `memory`.
-[[nodiscard]] Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration, DepthMap memory = {});
+// Unsupported if the frame lacks the component that the calibration names.
+[[nodiscard]] Result<DepthMap> readDepth(const Frame& depth, const DepthCalibration& calibration);
 
 // From a relief's heights.
-[[nodiscard]] DepthMap mapOf(const HeightField& field, DepthMap memory = {});
+[[nodiscard]] DepthMap mapOf(const HeightField& field);
 
 // A gray frame of 16 bits with the timestamps and aspect ratio of `like`; its codes mean `recoded(source,
 // DepthMap::kBits)`.

@@ -93,7 +93,7 @@ void DepthEnhancer::enhanceUntil(std::size_t end) {
 }
 
 bool DepthEnhancer::clean(Picture& picture) {
-  auto map = readDepth(picture.source, source_, std::move(spare_));
+  auto map = readDepth(picture.source, source_);
   if (!map) return false;
   picture.map = std::move(*map);
   picture.noise = noiseOf(picture.map);
@@ -120,7 +120,6 @@ void DepthEnhancer::enhance(std::size_t index) {
   picture.error = std::hypot(picture.noise_after, moved);
   picture.samples = map.size();
   picture.outcome = writeDepth(map, !outcome_.invalid.empty(), picture.source);
-  spare_ = std::move(map);
 }
 
 // In the memory of the oldest picture, which the next one does not need.

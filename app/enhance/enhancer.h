@@ -89,7 +89,6 @@ class DepthEnhancer {
   int width_ = 0, height_ = 0;
   std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones
   std::size_t done_ = 0;
-  DepthMap spare_;  // the next picture's memory
   std::deque<Frame> ready_;
   EnhancementSummary sums_;
 };
