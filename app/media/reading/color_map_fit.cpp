@@ -113,9 +113,16 @@ DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationL
     if (end <= most || kTimes * beyond >= end) continue;
     most = end;
     const int highest = DepthCalibration::kMapHighest, wide = static_cast<int>(smear);
-    reading.settings["invalid"] = last ? print("%d-%d", highest - wide, highest) : print("0-%d", wide);
-    reading.why = print("%.1f %% at the colour map's %s, apart from the others: holes", 100 * end / all,
-                        last ? "end" : "beginning");
+    const std::string holes = last ? print("%d-%d", highest - wide, highest) : print("0-%d", wide);
+    const std::string seen =
+        print("%.1f %% at the colour map's %s, apart from the others", 100 * end / all, last ? "end" : "beginning");
+    // A network's film has a sky there, and no holes.
+    if (depth.model == ColorModel::Yuv) {
+      reading.offer = seen + "; if they are holes: --calibration invalid=" + holes;
+      continue;
+    }
+    reading.settings["invalid"] = holes;
+    reading.why = seen + ": holes";
     reading.offer = "if they are none: --calibration invalid=none";
   }
   return reading;

@@ -181,15 +181,17 @@ double nearerBelow(const Frame& depth, const DepthCalibration& calibration) {
   return std::isnan(nearer) ? 0 : nearer;
 }
 
-std::string nearEndLine(const DepthCalibration& calibration, bool by_floor, const std::string& black) {
+std::string nearEndLine(const DepthCalibration& calibration, double nearer_below, const std::string& black) {
   const char *high = "the colour map's end", *low = "the colour map's beginning";
   if (calibration.code == DepthCode::Luma) high = "bright", low = "dark";
   if (calibration.code == DepthCode::Hue) high = "the end of hues beyond blue", low = "red";
   const bool near_high = calibration.polarity == DepthPolarity::NearIsHigh;
+  const char* view = "";
+  if (nearer_below > kClearlyNearer) view = ", which makes the view nearer below than above, as most are";
+  if (nearer_below < -kClearlyNearer) view = ", although the view is nearer above than below then, as few are";
   const std::string line =
       print("nothing says which end of the depth is near: %s is taken%s; if it is %s: --calibration polarity=%s",
-            near_high ? high : low, by_floor ? ", so that the view is nearer below than above, as most are" : "",
-            near_high ? low : high, near_high ? "near-low" : "near-high");
+            near_high ? high : low, view, near_high ? low : high, near_high ? "near-low" : "near-high");
   return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "");
 }
 

@@ -20,8 +20,9 @@ namespace relievo {
 inline constexpr double kClearlyNearer = 0.15;
 [[nodiscard]] double nearerBelow(const Frame& depth, const DepthCalibration& calibration);
 
-// The line for a near end that nobody has stated: which is taken, and the option for the other. `by_floor`: because the
-// relief is nearer below then. `black`: the codes that are holes if near is dark; empty if none.
-[[nodiscard]] std::string nearEndLine(const DepthCalibration& calibration, bool by_floor, const std::string& black);
+// The line for a near end that nobody has stated: which is taken, and the option for the other. `black`: the codes that
+// are holes if near is dark; empty if none.
+[[nodiscard]] std::string nearEndLine(const DepthCalibration& calibration, double nearer_below,
+                                      const std::string& black);
 
 }  // namespace relievo

@@ -125,16 +125,14 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   return count;
 }
 
-// Numbers are what their name says; else what makes the lower part of the view nearer, if that is clear; else what is
-// usual in their files. Distances do not begin at 0.
+// Numbers are what their name says, else what is usual in their files. Numbers that begin at 0 are relative disparities
+// if that makes the view nearer below: distances do not begin at 0.
 DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
                          const CalibrationLayers& layers) {
-  const auto named = clues.codec == "exr" ? false : namesDisparity(clues.path);
-  const auto seen = looksLikeDisparity(look, count);
-  if (named) return readFloats(look, count, *named || (areRelative(count) && seen.value_or(false)), layers);
-  const bool usual = clues.codec == "pfm" && !mayBeMetres(look, count);
-  DepthReading read = readFloats(look, count, seen.value_or(usual), layers);
-  read.unsure = seen != usual;
+  const bool usual = namesDisparity(clues.path).value_or(clues.codec == "pfm" && !mayBeMetres(look, count));
+  const bool seen = !usual && areRelative(count) && looksLikeDisparity(look, count);
+  DepthReading read = readFloats(look, count, usual || seen, layers);
+  read.unsure = seen;
   return read;
 }
 
@@ -182,40 +180,49 @@ const CalibrationPart& nearEndOf(const CalibrationChoice& choice) {
   return told ? law : polarity;
 }
 
-// Chooses the calibration. Where nothing states the near end, the one that makes the view nearer below is taken; where
-// it is a guess, or the view is clearly nearer above, a doubt says so.
-Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
-                                        DepthReading& read, std::vector<std::string>& doubts) {
-  auto choice = chooseCalibration(layers, look, clues.code);
+bool isColorMap(DepthCode code) noexcept {
+  return code != DepthCode::Luma && code != DepthCode::Hue;
+}
+
+// Chooses the calibration. Gray is near where it is bright, hues are near in the red. Either end of a colour map is as
+// often near: it is the one that makes the view nearer below. Where the near end is a guess, a doubt says so; where it
+// is only likely, and no known kind, a doubt says that the view is nearer above.
+Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, bool is_known, const Frame& look,
+                                        CalibrationLayers& layers, DepthReading& read,
+                                        std::vector<std::string>& doubts) {
+  const auto choose = [&] {
+    auto choice = chooseCalibration(layers, look, clues.code);
+    if (choice) markGuesses(clues.tags, *choice);
+    return choice;
+  };
+  auto choice = choose();
   if (!choice) return choice;
-  markGuesses(clues.tags, *choice);
   const CalibrationOrigin by = nearEndOf(*choice).origin;
-  if (certaintyOf(by) == Certainty::Said) return choice;
+  const Certainty certainty = certaintyOf(by);
+  if (certainty == Certainty::Said) return choice;
   DepthCalibration seen = choice->calibration;
   if (!read.black.empty()) seen.invalid = CodeSet::parse(read.black).value_or(CodeSet());
-  const double nearer = nearerBelow(look, seen);
-  const bool upside_down = nearer < -kClearlyNearer;
-  if (certaintyOf(by) == Certainty::Likely) {
-    if (!upside_down && !read.unsure) return choice;
+  double nearer = nearerBelow(look, seen);
+  const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
+  const char* const other = near_high ? "near-low" : "near-high";
+  if (certainty == Certainty::Likely) {
+    const bool upside_down = nearer < -kClearlyNearer;
+    if (!read.unsure && (!upside_down || is_known)) return choice;
     if (read.offer.empty() && !seen.unit_mm) {
-      const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
-      read.offer = print("if the other end is near: --calibration polarity=%s", near_high ? "near-low" : "near-high");
+      read.offer = print("if the other end is near: --calibration polarity=%s", other);
     }
     if (read.offer.empty()) return choice;
     doubts.push_back((upside_down ? "read so, the view is nearer above than below, as few are: " : "") + read.offer);
     read.offer.clear();
     return choice;
   }
-  if (upside_down && by == CalibrationOrigin::Default) {
-    const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
-    layers.pictures["polarity"] = near_high ? "near-low" : "near-high";
-    if (near_high && !read.black.empty()) layers.pictures["invalid"] = read.black;
-    choice = chooseCalibration(layers, look, clues.code);
+  if (isColorMap(clues.code) && by == CalibrationOrigin::Default && nearer < -kClearlyNearer) {
+    layers.pictures["polarity"] = other;
+    nearer = -nearer;
+    choice = choose();
     if (!choice) return choice;
-    markGuesses(clues.tags, *choice);
   }
-  const bool by_floor = std::abs(nearer) > kClearlyNearer && by == CalibrationOrigin::Default;
-  doubts.push_back(nearEndLine(choice->calibration, by_floor, read.black));
+  doubts.push_back(nearEndLine(choice->calibration, nearer, read.black));
   return choice;
 }
 
@@ -252,12 +259,13 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   const HueSpan span = addKind(clues, kind, layers);
   fitHoles(layers.stated_kind, look.components[0].bits);
   const bool film = clues.code == DepthCode::Luma && look.model == ColorModel::Yuv;
-  if (film && saysDisparity(clues.path)) layers.names.insert({"polarity", "near-high"});
+  const bool open = kind == nullptr && !definesCodes(layers);
+  if (film && open && saysDisparity(clues.path)) layers.names.insert({"polarity", "near-high"});
   DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
   std::vector<std::string> doubts;
-  auto choice = chooseNearEnd(clues, look, layers, read, doubts);
+  auto choice = chooseNearEnd(clues, kind != nullptr || read.kind != nullptr, look, layers, read, doubts);
   if (!choice) return std::unexpected(choice.error());
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};

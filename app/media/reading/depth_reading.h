@@ -19,7 +19,7 @@ struct DepthReading {
   const KnownKind* kind = nullptr;  // as the codes show
   std::string why;                  // one line; empty if the picture revealed nothing
   std::string offer;                // one line; empty if there is no doubt
-  bool unsure = false;              // nothing but a custom speaks against `offer`
+  bool unsure = false;              // `offer` is as likely
   std::string black;                // of a film of brightness: the codes that are holes if near is dark; empty if none
 };
 

@@ -131,12 +131,11 @@ std::optional<bool> namesDisparity(std::string_view path) {
   return std::nullopt;
 }
 
-std::optional<bool> looksLikeDisparity(const Frame& depth, const CodeCount& count) {
+bool looksLikeDisparity(const Frame& depth, const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
   distances.codes = CodeSet::Range{low, std::max(high, low + 1)};
-  const double nearer = nearerBelow(depth, distances);
-  return std::abs(nearer) > kClearlyNearer ? std::optional(nearer < 0) : std::nullopt;
+  return nearerBelow(depth, distances) < -kClearlyNearer;
 }
 
 bool areRelative(const CodeCount& count) {

@@ -20,9 +20,8 @@ namespace relievo {
 // True if the numbers may be a room's distances in metres, and are hardly disparities in pixels: all from 0.1 to 16.
 [[nodiscard]] bool mayBeMetres(const Frame& depth, const CodeCount& count);
 
-// What the picture says of numbers that have no name: disparities or distances, whichever makes its lower part clearly
-// nearer than its upper one. Nullopt if neither does.
-[[nodiscard]] std::optional<bool> looksLikeDisparity(const Frame& depth, const CodeCount& count);
+// True if disparities make the picture's lower part clearly nearer than its upper one.
+[[nodiscard]] bool looksLikeDisparity(const Frame& depth, const CodeCount& count);
 // True if the largest number is so many times the smallest that 0 means no distance.
 [[nodiscard]] bool areRelative(const CodeCount& count);
 

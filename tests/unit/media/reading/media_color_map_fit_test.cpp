@@ -137,19 +137,23 @@ TEST(ColorMapFit, AGuessedNearEndIsTold) {
 TEST(ColorMapFit, AnEndApartFromTheOtherColoursIsAHole) {
   const TemporaryFolder folder;
   makeClip(folder / "color.mkv", {{.pix_fmt = "yuv420p", .width = kCols, .height = kRows, .frames = 2}});
-  const auto invalidOf = [&](const std::string& depth, const CalibrationSettings& said = {}) {
+  const auto infoOf = [&](const std::string& depth, const CalibrationSettings& said = {}) {
     PairReader reader(kFfmpeg);
     EXPECT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = depth, .command_line = said}));
-    return reader.info().calibration.calibration.invalid.text();
+    return reader.info();
   };
+  const auto invalidOf = [&](const std::string& depth) { return infoOf(depth).calibration.calibration.invalid.text(); };
   for (const bool reversed : {false, true}) {
     const auto with_holes = [=](int c, int r) {
       const double s = c < 16 ? 0 : depthAt(c, r);
       return jet(reversed ? 1 - s : s);
     };
     makeClip(folder / "film.mkv", {coded(with_holes, "23")});
-    EXPECT_EQ(invalidOf(folder / "film.mkv"), reversed ? "252-255" : "0-3");
-    EXPECT_EQ(invalidOf(folder / "film.mkv", {{"invalid", "none"}}), "none");
+    // The same in a film may be a network's sky.
+    EXPECT_EQ(invalidOf(folder / "film.mkv"), "none");
+    const auto option = testing::HasSubstr(reversed ? "invalid=252-255" : "invalid=0-3");
+    EXPECT_THAT(infoOf(folder / "film.mkv").reading.offers, testing::Contains(option));
+    EXPECT_THAT(infoOf(folder / "film.mkv", {{"invalid", "none"}}).reading.offers, testing::IsEmpty());
     ClipTrack picture{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1};
     picture.sample = [=](int k, int c, int r, int) {
       return static_cast<std::uint32_t>(std::lround(255 * with_holes(c, r)[static_cast<std::size_t>(k)]));
@@ -157,6 +161,7 @@ TEST(ColorMapFit, AnEndApartFromTheOtherColoursIsAHole) {
     makeClip(folder / "depth.png", {picture});
     EXPECT_EQ(invalidOf(folder / "depth.png"), reversed ? "254-255" : "0-1");
   }
+  EXPECT_EQ(infoOf(folder / "depth.png", {{"invalid", "none"}}).calibration.calibration.invalid.text(), "none");
   makeClip(folder / "whole.mkv", {coded([](int c, int r) { return jet(0.2 + depthAt(c, r)); }, "23")});
   EXPECT_EQ(invalidOf(folder / "whole.mkv"), "none");
   // A Kinect's ramp, from black over blue and cyan to white, has black for holes.
@@ -167,6 +172,25 @@ TEST(ColorMapFit, AnEndApartFromTheOtherColoursIsAHole) {
   EXPECT_EQ(invalidOf(folder / "kinect.mkv"), "0-8");
   makeClip(folder / "slope.mkv", {coded([](int c, int) { return jet(std::max(0.0, (c - 8.0) / kCols)); }, "23")});
   EXPECT_EQ(invalidOf(folder / "slope.mkv"), "none") << "the slope runs into the end";
+}
+
+// Distances through a map have the floor at its beginning, disparities at its end.
+TEST(ColorMapFit, TheEndThatMakesTheFloorNearIsTaken) {
+  const TemporaryFolder folder;
+  for (const bool distances : {false, true}) {
+    ClipTrack picture{.codec = "png", .pix_fmt = "rgb24", .width = kCols, .height = kRows, .frames = 1};
+    picture.sample = [=](int k, int, int r, int) {
+      const double s = 0.1 + 0.8 * r / kRows;
+      return static_cast<std::uint32_t>(std::lround(255 * jet(distances ? 1 - s : s)[static_cast<std::size_t>(k)]));
+    };
+    makeClip(folder / "depth.png", {picture});
+    PairReader reader(kFfmpeg);
+    ASSERT_TRUE(reader.open({.url = folder / "depth.png"}));
+    EXPECT_EQ(reader.info().calibration.calibration.polarity,
+              distances ? DepthPolarity::NearIsLow : DepthPolarity::NearIsHigh);
+    EXPECT_THAT(reader.info().reading.doubts,
+                testing::Contains(testing::HasSubstr(distances ? "polarity=near-high" : "polarity=near-low")));
+  }
 }
 
 }  // namespace

@@ -9,8 +9,10 @@
 #include <fstream>
 #include <limits>
 
+#include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/float_reading.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/depth_frames.h"
 #include "tests/support/film/float_tiff.h"
 #include "tests/support/film/opened_film.h"
 
@@ -147,8 +149,8 @@ TEST(FloatReading, InAFolderTheDepthsOwnNameTells) {
   }
 }
 
-// Neither name nor file says what the numbers are: the floor is nearer below.
-TEST(FloatReading, NumbersWithoutANameMakeTheFloorNear) {
+// The floor is nearer below: a view that is nearer above says that the custom may be wrong.
+TEST(FloatReading, NumbersWithoutANameAreDoubtedIfTheyMakeTheFloorFar) {
   const TemporaryFolder folder;
   const auto write = [&](const char* name, const auto& value) {
     test::FloatTiff tiff{.width = kCols, .height = kRows};
@@ -160,19 +162,18 @@ TEST(FloatReading, NumbersWithoutANameMakeTheFloorNear) {
     return test::openFilm({.url = folder / name});
   };
   const auto disparity = [](double m) { return 90 / m; };
-  const test::OpenedFilm seen = write("LEFT_GT.tif", disparity);
-  expectDistances(seen);
-  EXPECT_EQ(seen.info.calibration.calibration.law, DepthLaw::Inverse);
-  EXPECT_THAT(seen.info.reading.doubts, Contains(HasSubstr("distances: --calibration unit=1000")));
+  for (const char* name : {"LEFT_GT.tif", "depth.tif"}) {
+    const test::OpenedFilm seen = write(name, disparity);
+    EXPECT_TRUE(seen.info.calibration.calibration.unit_mm) << name;
+    EXPECT_THAT(seen.info.reading.doubts, Contains(AllOf(HasSubstr("nearer above"), HasSubstr("law=inverse"))));
+  }
   const test::OpenedFilm metres = write("GT.tif", [](double m) { return m; });
   expectDistances(metres);
   EXPECT_THAT(metres.info.reading.doubts, IsEmpty());
-  // A name that says depth is believed, with a doubt, unless the numbers begin at 0.
-  const test::OpenedFilm named = write("depth.tif", disparity);
-  EXPECT_TRUE(named.info.calibration.calibration.unit_mm);
-  EXPECT_THAT(named.info.reading.doubts, Contains(AllOf(HasSubstr("nearer above"), HasSubstr("law=inverse"))));
+  // Distances do not begin at 0: such numbers are relative, whatever the name says.
   const test::OpenedFilm relative = write("rel_depth.tif", [](double m) { return (4.07 - m) / 3; });
   EXPECT_GT(relative.heightAt(30, 40), relative.heightAt(30, 10) + 0.5);
+  EXPECT_THAT(relative.info.reading.doubts, Contains(HasSubstr("unit=1000")));
 }
 
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
@@ -180,6 +181,17 @@ TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("disp0.npy"), true);
   EXPECT_EQ(namesDisparity("disp/depth_map_7.pfm"), false) << "the file's own name first";
   EXPECT_EQ(namesDisparity("disp/a/b/c.tif"), std::nullopt) << "the last three names only";
+}
+
+TEST(FloatReading, AnExrIsDistancesUnlessItsNameSaysDisparity) {
+  Frame frame = test::makeGrayFrame(kCols, kRows, 16, {}, [](int, int r) { return 20'000 + 300 * r; });
+  frame.value_per_code = 0.001;
+  const auto law = [&](const char* path) {
+    const auto meaning = readMeaning({.codec = "exr", .path = path}, nullptr, frame).value();
+    return meaning.calibration.calibration.law;
+  };
+  EXPECT_EQ(law("left_disparity.exr"), DepthLaw::Inverse);
+  EXPECT_EQ(law("z.exr"), DepthLaw::Linear);
 }
 
 // An array of rows x columns x 3, in colours from blue (far) over cyan, yellow and red to dark red.

@@ -76,16 +76,15 @@ DepthMeaning meaningOf(Code&& code, ColorModel model = ColorModel::Gray, const D
 }
 
 // A street: the road below is nearer than the houses and the sky above.
-TEST(ShadeReading, TheNearEndIsTheOneThatMakesTheGroundNear) {
-  const DepthMeaning dark = meaningOf([](int, int r) { return 220 - 2 * r; });
-  EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow);
-  EXPECT_THAT(dark.reading.doubts, ElementsAre(AllOf(HasSubstr("dark is taken, so that"), HasSubstr("=near-high"))));
-  const DepthMeaning bright = meaningOf([](int, int r) { return 30 + 2 * r; });
-  EXPECT_EQ(bright.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
-  EXPECT_THAT(bright.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken, so that"), HasSubstr("=near-low"))));
-  const DepthMeaning level = meaningOf([](int c, int) { return 30 + 2 * c; });
-  EXPECT_EQ(level.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
-  EXPECT_THAT(level.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken;"), HasSubstr("=near-low"))));
+TEST(ShadeReading, BrightIsNearAndADoubtSaysWhatTheViewSays) {
+  const auto expect = [](const auto& code, const char* view) {
+    const DepthMeaning meaning = meaningOf(code);
+    EXPECT_EQ(meaning.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+    EXPECT_THAT(meaning.reading.doubts, ElementsAre(AllOf(HasSubstr(view), HasSubstr("polarity=near-low"))));
+  };
+  expect([](int, int r) { return 220 - 2 * r; }, "bright is taken, although");
+  expect([](int, int r) { return 30 + 2 * r; }, "bright is taken, which makes");
+  expect([](int c, int) { return 30 + 2 * c; }, "bright is taken;");
 }
 
 TEST(ShadeReading, AFilmThatIsNamedDisparityIsNearWhereItIsBright) {
@@ -93,6 +92,9 @@ TEST(ShadeReading, AFilmThatIsNamedDisparityIsNearWhereItIsBright) {
       meaningOf([](int, int r) { return 220 - 2 * r; }, ColorModel::Yuv, {.path = "a/clip_disparity.mp4"});
   EXPECT_EQ(named.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
   EXPECT_THAT(named.reading.doubts, ElementsAre(AllOf(HasSubstr("nearer above"), HasSubstr("polarity=near-low"))));
+  const DepthMeaning told = meaningOf([](int, int r) { return 220 - 2 * r; }, ColorModel::Yuv,
+                                      {.command_line = {{"unit", "10"}}, .path = "a/clip_disparity.mp4"});
+  EXPECT_EQ(told.calibration.calibration.unit_mm, 10);
 }
 
 TEST(ShadeReading, WhoeverStatesTheNearEndIsNotDoubted) {
@@ -107,14 +109,14 @@ TEST(ShadeReading, WhoeverStatesTheNearEndIsNotDoubted) {
 }
 
 // Black stands at the top, as a sky without depth does: it says nothing of the ground.
-TEST(ShadeReading, BlackThatMayBeAHoleIsOneIfNearIsDark) {
+TEST(ShadeReading, BlackThatMayBeAHoleIsOfferedAsOne) {
   const auto shades = [](int bottom) { return [=](int, int r) { return r < 24 ? 1 : r < 48 ? 130 : bottom; }; };
-  const DepthMeaning dark = meaningOf(shades(60), ColorModel::Yuv);
-  EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow);
-  EXPECT_EQ(dark.calibration.calibration.invalid.text(), "0-3");
-  const DepthMeaning bright = meaningOf(shades(200), ColorModel::Yuv);
-  EXPECT_TRUE(bright.calibration.calibration.invalid.empty());
-  EXPECT_THAT(bright.reading.doubts, ElementsAre(HasSubstr("polarity=near-low,invalid=0-3")));
+  for (const int bottom : {60, 200}) {
+    const DepthMeaning meaning = meaningOf(shades(bottom), ColorModel::Yuv);
+    EXPECT_TRUE(meaning.calibration.calibration.invalid.empty());
+    EXPECT_THAT(meaning.reading.doubts, ElementsAre(AllOf(HasSubstr(bottom == 60 ? "although" : "which makes"),
+                                                          HasSubstr("polarity=near-low,invalid=0-3"))));
+  }
 }
 
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
