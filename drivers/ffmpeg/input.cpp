@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,12 @@ int findStreams(AVFormatContext& context) {
   const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
   for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
   return found;
+}
+
+// A list that another list names is no part of the film.
+bool isList(std::string_view url) noexcept {
+  url = url.substr(0, url.find_first_of("?#"));
+  return url.ends_with(".m3u8") || url.ends_with(".m3u");
 }
 
 // FFmpeg passes over a part that a busy server refuses. So it is asked for again, at once and after a second.
@@ -85,9 +92,11 @@ Result<Input::Opened> Input::open(const std::string& url) {
   const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
   av_dict_free(&options);
   if (opened < 0 && file != nullptr) closeLocalFile(file);
-  if (opened < 0 && lost_ > 0 && !watch_.cancelled()) tellLost(first_lost_);
-  if (opened < 0)
-    return std::unexpected(watch_.explain(lost_ > 0 ? kNoParts : refusal(*address, opened, words.last())));
+  if (opened < 0) {
+    if (lost_ > 0 && !watch_.cancelled()) tellLost(first_lost_);
+    const bool no_part = lost_ > 0 && !any_part_;
+    return std::unexpected(watch_.explain(no_part ? kNoParts : refusal(*address, opened, words.last())));
+  }
   const MonotonicTime arrival = watch_.now();
   opened_ = true;
   if (lost_ > 0) tellLost(first_lost_);
@@ -143,8 +152,10 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
   const int opened = self.openAny(context, file, url, flags, options);
-  if (opened >= 0) self.last_lost_.clear();
-  else if (!self.watch_.cancelled()) self.noteLost(url);
+  if (opened >= 0) {
+    self.any_part_ = self.any_part_ || (self.url_ != url && !isList(url));
+    self.last_lost_.clear();
+  } else if (!self.watch_.cancelled()) self.noteLost(url);
   return opened;
 }
 
@@ -162,7 +173,7 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
 // FFmpeg skips segments of a list that it cannot open; some it tries twice. A film that it opens itself is no part.
 void Input::noteLost(const char* part) {
   if (last_lost_ == part || url_ == part) return;
-  if (last_lost_.empty()) ++losses_;
+  if (any_part_ && last_lost_.empty()) ++losses_;  // before the first part there is no gap
   last_lost_ = part;
   ++lost_;
   if (lost_ == 1) first_lost_ = part;

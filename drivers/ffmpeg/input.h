@@ -40,6 +40,7 @@ class Input {
   // Call for a seek: what was lost before it leaves no gap behind it.
   void beginElsewhere() noexcept {
     losses_ = 0;
+    any_part_ = false;
     last_lost_.clear();
   }
   // As av_read_frame, of the container that was opened here.
@@ -47,7 +48,7 @@ class Input {
   // Whether something is missing near a packet that was read here, as far as FFmpeg has told it.
   [[nodiscard]] Doubt doubtOf(const AVPacket& packet, const AVStream& stream) const noexcept;
   // How often parts could not be opened, since the film was opened or sought. It was logged. Neighbours count as one,
-  // since they leave one gap.
+  // since they leave one gap. Those before the first part that could be opened leave none.
   [[nodiscard]] unsigned losses() const noexcept { return losses_; }
   // Whether FFmpeg has warned at the last read.
   [[nodiscard]] bool isDoubtful() const noexcept { return doubtful_; }
@@ -76,6 +77,7 @@ class Input {
   std::string last_lost_;  // empty once a part could be opened
   unsigned lost_ = 0;      // parts that could not be opened
   unsigned losses_ = 0;
+  bool any_part_ = false;  // could be opened, since then
   bool doubtful_ = false;
   std::int64_t doubtful_until_ = 0;  // the byte to which the container was read while it was opened, if it warned
   UniqueFd pipe_;                    // outlives the container that reads from it

@@ -28,6 +28,7 @@ using test::makeClip;
 using test::TemporaryFolder;
 using testing::AnyOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const ClipTrack kTwoSeconds{.codec = "libx264", .pix_fmt = "yuv420p", .fps_num = 24, .frames = 48};
 
@@ -54,9 +55,25 @@ TEST(FfmpegSource, TellsThatNoPartOfAListIsThere) {
   TemporaryFolder folder;
   writeFile(folder / "list.m3u8",
             "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\ngone.ts\n#EXTINF:2,\naway.ts\n#EXT-X-ENDLIST\n");
-  testing::internal::CaptureStderr();
-  EXPECT_THAT(openErrorOf(folder / "list.m3u8").message, HasSubstr("none of its parts can be opened"));
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gone.ts, cannot be opened"));
+  writeFile(folder / "lists.m3u8", "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=100000\nlist.m3u8\n");
+  for (const char* list : {"list.m3u8", "lists.m3u8"}) {
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(openErrorOf(folder / list).message, HasSubstr("none of its parts can be opened")) << list;
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gone.ts, cannot be opened")) << list;
+  }
+}
+
+// The error is then that of the part that is there.
+TEST(FfmpegSource, AListWithAPartThatIsNoFilmIsNotToldToHaveNoParts) {
+  TemporaryFolder folder;
+  writeFile(folder / "text.ts", std::string(20000, 'x'));
+  for (const char* parts : {"gone.ts\n#EXTINF:2,\ntext.ts", "text.ts\n#EXTINF:2,\ngone.ts"}) {
+    writeFile(folder / "list.m3u8",
+              "#EXTM3U\n#EXT-X-TARGETDURATION:2\n#EXTINF:2,\n" + std::string(parts) + "\n#EXT-X-ENDLIST\n");
+    testing::internal::CaptureStderr();
+    EXPECT_THAT(openErrorOf(folder / "list.m3u8").message, Not(HasSubstr("none of its parts"))) << parts;
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("gone.ts cannot be opened")) << parts;
+  }
 }
 
 // Within FFmpeg, until no descriptor is left.
@@ -202,7 +219,7 @@ TEST(FfmpegSource, TellsTheLossOfASegmentOfAnHlsFilmOnce) {
   }
 }
 
-// The second of seven segments is gone. Later a picture stands for 1.5 s.
+// The first or the second of seven segments is gone. Later a picture stands for 1.5 s.
 TEST(FfmpegSource, ALostSegmentExplainsOneGapAlone) {
   TemporaryFolder folder;
   const std::string make =
@@ -210,15 +227,18 @@ TEST(FfmpegSource, ALostSegmentExplainsOneGapAlone) {
       "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=s=64x48:r=10:d=8 -vf \"select='not(between(n,42,56))'\" "
       "-vsync vfr -c:v libx264 -g 10 -hls_time 1 -hls_list_size 0 -hls_playlist_type vod a.m3u8";
   if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
-  std::filesystem::remove(folder / "a1.ts");
-  const auto source = makeFfmpegSource();
-  testing::internal::CaptureStderr();
-  ASSERT_TRUE(source->open(folder / "a.m3u8").has_value());
-  EXPECT_EQ(readAll(*source).size(), 55U);
-  const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_THAT(told, HasSubstr("a1.ts cannot be opened"));
-  EXPECT_THAT(told, HasSubstr("for 1.5 s at 4.2 s there are no pictures: a still, or a part is missing\n"));
-  EXPECT_NEAR(toSeconds(source->missing()), 1, 0.05);
+  for (const std::string segment : {"a0.ts", "a1.ts"}) {
+    std::filesystem::rename(folder / segment, folder / "away");
+    const auto source = makeFfmpegSource();
+    testing::internal::CaptureStderr();
+    ASSERT_TRUE(source->open(folder / "a.m3u8").has_value()) << segment;
+    EXPECT_EQ(readAll(*source).size(), 55U) << segment;
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(told, HasSubstr(segment + " cannot be opened"));
+    EXPECT_THAT(told, HasSubstr(segment == "a0.ts" ? "for 1.5 s at 3.2 s there are" : "for 1.5 s at 4.2 s there are"));
+    EXPECT_NEAR(toSeconds(source->missing()), 1, 0.05) << segment;
+    std::filesystem::rename(folder / "away", folder / segment);
+  }
 }
 
 // A picture that stands for 1.5 s is told by the next one's time alone.
