@@ -162,7 +162,7 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
 int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options) {
   const std::string path = reads_files_ ? localPathOf(url) : "";
   if (path.empty()) {
-    askBusyServerAgain(*options);
+    if (options != nullptr) askBusyServerAgain(*options);
     return open_file_(context, file, url, flags, options);
   }
   const auto opened = openLocalFile(path, watch_);
