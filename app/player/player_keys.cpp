@@ -61,12 +61,12 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
     return true;
   }
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
-  const auto share = screen_.barAt(mouse, parts_.clock.now());
   if (mouse.notches != 0) {
-    const bool is_volume = share || !config_.mouse_touches;
+    const bool is_volume = screen_.isOverBar(mouse) || !config_.mouse_touches;
     if (is_volume) mouse_.turn(mouse.notches);
     return is_volume;
   }
+  const auto share = screen_.barAt(mouse, parts_.clock.now());
   if (share && mouse.pressed) mouse_.drag(*share);
   return share.has_value();
 }

@@ -199,6 +199,11 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   return share;
 }
 
+bool FilmScreen::isOverBar(const SurfaceMouse& mouse) const {
+  const auto point = written_.bar ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
+  return point && (drags_bar_ || barShareAt(point->across, point->down, point->aspect));
+}
+
 std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {
   const auto point = written_.list ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
   return point ? listFilmAt(*written_.list, point->across, point->down, point->aspect) : std::nullopt;

@@ -73,6 +73,8 @@ class FilmScreen {
   // The film's position, 0 to 1, under the mouse on the bar; nullopt if there is no bar. A mouse near the bar's place
   // shows the bar. A press on the bar holds it: until the button is released, the mouse may leave it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
+  // Whether the mouse is over the bar or holds it. A film without a length has a bar as well.
+  [[nodiscard]] bool isOverBar(const SurfaceMouse& mouse) const;
 
   // The film that the mouse is over in the list of films; nullopt: none.
   [[nodiscard]] std::optional<std::size_t> filmAt(const SurfaceMouse& mouse) const;

@@ -203,6 +203,35 @@ TEST_F(FilmScreenTest, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
   EXPECT_EQ(at(940, kAbove, true), std::nullopt) << "another press";
 }
 
+// A notch of the wheel is told with the button up.
+TEST_F(FilmScreenTest, TheWheelOverTheBarDoesNotReleaseIt) {
+  stereo_ = {.layout = StereoLayout::Mono};
+  make();
+  EXPECT_TRUE(show());
+  screen_->wake(clock_.now());
+  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
+  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+  const SurfaceMouse wheel{.across = 0.5, .down = kOnIt, .notches = 1};
+  const SurfaceMouse above{.across = 0.5, .down = kAbove, .notches = 1};
+  EXPECT_TRUE(screen_->isOverBar(wheel));
+  EXPECT_FALSE(screen_->isOverBar(above));
+  EXPECT_TRUE(screen_->barAt({.across = 0.5, .down = kOnIt, .pressed = true}, clock_.now()));
+  EXPECT_TRUE(screen_->isOverBar(above)) << "it is held";
+  EXPECT_TRUE(screen_->barAt({.across = 0.5, .down = kAbove, .pressed = true}, clock_.now())) << "still";
+}
+
+TEST_F(FilmScreenTest, AFilmWithoutALengthHasABarForTheWheel) {
+  stereo_ = {.layout = StereoLayout::Mono};
+  make();
+  EXPECT_TRUE(show());
+  screen_->wake(clock_.now());
+  const SurfaceMouse mouse{.across = 0.5, .down = 664.0 / 720, .notches = 1};
+  EXPECT_FALSE(screen_->isOverBar(mouse)) << "it is not shown yet";
+  screen_->write({}, MonotonicTime::max(), clock_.now());
+  EXPECT_TRUE(screen_->isOverBar(mouse));
+  EXPECT_EQ(screen_->barAt({.across = 0.5, .down = 664.0 / 720}, clock_.now()), std::nullopt);
+}
+
 TEST_F(FilmScreenTest, WithoutAScreenItGoesOnAndSaysSo) {
   cable_->unplugged = true;
   make();
