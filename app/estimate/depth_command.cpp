@@ -34,6 +34,10 @@ constexpr Error kFailed{ErrorCode::Io, 0, "the depth command failed"};
 constexpr Error kStalled{ErrorCode::Timeout, 0, "the depth command has stalled; it was ended"};
 constexpr Error kTooLate{ErrorCode::Timeout, 0, "the depth command answers too late; it was ended"};
 
+std::string named(const std::string& command) {
+  return command.size() <= kNamed ? command : command.substr(0, kNamed - 2) + "..";
+}
+
 std::string lastLine(std::string text) {
   const char* const ends = "\r\n ";
   text.erase(std::min(text.find_last_not_of(ends) + 1, text.size()));
@@ -128,7 +132,7 @@ bool DepthCommand::isSilent() {
   const auto silence = std::chrono::steady_clock::now() - last_moved_;
   if (silence > setup_.patience / kPatienceToWords && !std::exchange(told_, true)) {
     log(LogLevel::Warning, "depth", "waiting for \"%s\", which reads and writes nothing (up to %g s)",
-        setup_.command.c_str(), std::chrono::duration<double>(setup_.patience).count());
+        named(setup_.command).c_str(), std::chrono::duration<double>(setup_.patience).count());
   }
   return silence > setup_.patience;
 }
@@ -161,10 +165,8 @@ std::unexpected<Failure> DepthCommand::endedEarly(Lock& lock) {
 }
 
 std::unexpected<Failure> DepthCommand::failed(const std::string& what, const Error& error) const {
-  const std::string named =
-      setup_.command.size() <= kNamed ? setup_.command : setup_.command.substr(0, kNamed - 2) + "..";
   const std::string words = lastLine(said_);
-  return failOn(named + ": " + what + (words.empty() ? "" : " (" + words + ")"), error);
+  return failOn(named(setup_.command) + ": " + what + (words.empty() ? "" : " (" + words + ")"), error);
 }
 
 std::size_t DepthCommand::depthBytes() const noexcept {

@@ -127,6 +127,13 @@ TEST(DepthCommand, IsGivenUpIfItStallsOrIsTooLate) {
               HasSubstr("has read 64 pictures more than it has answered"));
 }
 
+TEST(DepthCommand, IsNamedByItsBeginningWhereItIsLong) {
+  const Trial trial{.patience = std::chrono::milliseconds(100)};
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(trial.failureOf("sleep 1000 # " + std::string(100, 'x')), HasSubstr("xx..: has read"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("xx..\", which reads and writes nothing"));
+}
+
 // True if the process is gone, or has ended and waits for its new parent to collect it.
 bool isGone(pid_t pid) {
   if (::kill(pid, 0) != 0) return true;
