@@ -3,11 +3,12 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "platform/unique_fd.h"
 #include "tests/scenario/program/player_program.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
 
 namespace relievo::test {
@@ -73,20 +75,19 @@ TEST_F(PlayerProgram, WhatCannotBeWrittenIsFoundOutBeforePlaying) {
 TEST_F(PlayerProgram, TheReaderOfACaptureMayOpenItsPipeALittleLater) {
   makeClip(at("film.mkv"), {color(3), depth(3)});
   ASSERT_EQ(::mkfifo(at("pipe.y4m").c_str(), 0600), 0);
+  Process player({RELIEVO_BIN_DIR "/relievo", "play", at("film.mkv"), "--display", "offscreen:" + at("pipe.y4m")},
+                 at("said.txt"));
+  while (!player.catches(SIGTERM) && player.isRunning()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // by then it waits for the reader
+  const UniqueFd pipe(::open(at("pipe.y4m").c_str(), O_RDONLY | O_NONBLOCK));
+  pollfd wait{.fd = pipe.get(), .events = POLLIN, .revents = 0};
   std::array<char, 65536> bytes{};
   std::string read;
-  std::atomic<bool> ended{false};
-  std::thread reader([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(600));  // by then the player waits, or will soon
-    const UniqueFd pipe(::open(at("pipe.y4m").c_str(), O_RDONLY | O_NONBLOCK));
-    while (!ended) {
-      if (const auto got = ::read(pipe.get(), bytes.data(), bytes.size()); got > 0) read.append(bytes.data(), got);
-    }
-  });
-  const auto played = play(at("film.mkv"), "offscreen:" + at("pipe.y4m"));
-  ended = true;
-  reader.join();
-  EXPECT_EQ(played.exit_code, 0) << played.err;
+  while (wait.revents != POLLHUP && player.isRunning()) {
+    if (::poll(&wait, 1, 100) <= 0) continue;
+    if (const auto got = ::read(pipe.get(), bytes.data(), bytes.size()); got > 0) read.append(bytes.data(), got);
+  }
+  EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
   EXPECT_THAT(read, testing::StartsWith("YUV4MPEG2 "));
 }
 
