@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,7 +75,22 @@ TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   EXPECT_EQ(folders(machineWith(false, false), {"--control", "/run/r"}), none) << "cannot be seen off screen";
 }
 
+class KeptVariable {
+ public:
+  explicit KeptVariable(const char* name) : name_(name) {
+    if (const char* const value = std::getenv(name)) value_ = value;
+  }
+  KeptVariable(const KeptVariable&) = delete;
+  KeptVariable& operator=(const KeptVariable&) = delete;
+  ~KeptVariable() { value_ ? ::setenv(name_, value_->c_str(), 1) : ::unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::optional<std::string> value_;
+};
+
 TEST(Options, TheLanguageIsThatOfTheDesktopsMessages) {
+  const KeptVariable all("LC_ALL"), messages("LC_MESSAGES"), lang("LANG");
   const auto language = [] {
     return parse({"film.mkv"}, machineWith(true, true)).options->play.player.source.desktop_language;
   };
@@ -85,8 +102,6 @@ TEST(Options, TheLanguageIsThatOfTheDesktopsMessages) {
   EXPECT_EQ(language(), "fr_FR.UTF-8");
   ::setenv("LC_ALL", "", 1);
   EXPECT_EQ(language(), "fr_FR.UTF-8") << "an empty one says nothing";
-  ::unsetenv("LC_MESSAGES");
-  ::unsetenv("LC_ALL");
 }
 
 TEST(Options, WithoutADesktopItTakesTheScreen) {
