@@ -31,7 +31,7 @@ TEST(LabReport, EndsWhereAChartCannotBeWritten) {
   const auto done = writeReport(options);
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().thing, folder / "stability-material.csv");
-  EXPECT_EQ(parts, std::set<std::string>{"part 7 of 11"});
+  EXPECT_EQ(parts.size(), 1U) << "the other one that is missing was measured as well";
 }
 
 }  // namespace
