@@ -111,7 +111,7 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
   if (name.withArgument("inverse3")) {
     const auto address = inverse3::Address::parse(*name.argument);
     if (!address)
-      return unknown("--haptic", name, "is no address of a service; write inverse3:HOST or inverse3:HOST:PORT");
+      return unknown("--haptic", name, "is not a service's address; write inverse3:HOST or inverse3:HOST:PORT");
     return makeInverse3({.address = *address}, clock);
   }
   if (name.plain("sim") || name.withArgument("sim")) {

@@ -176,7 +176,7 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
-            "through the colours back to red (far), also as RealSense and Record3D write it;\n"
+            "through the colours back to red (far), RealSense's and Record3D's hues too;\n"
             "others: colour maps; spectral: from blue to red, ylgnbu: from yellow to blue, kinect: black (no depth), "
             "blue, cyan, white");
   app.add_option_function<std::vector<std::string>>(
@@ -188,8 +188,9 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "law=linear|inverse: codes are proportional to distance or to 1/distance;\n"
          "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
          "codes=LOW-HIGH: the range of codes in use, if not all;\n"
-         "invalid=CODE+CODE+LOW-HIGH..|none: codes of holes; unit=MM: codes are distances, MM mm each, from near to "
-         "far;\n"
+         "invalid=CODE+CODE+LOW-HIGH..|none: codes that mean no reading; unit=MM: codes are distances, MM mm each, "
+         "from "
+         "near to far;\n"
          "near=MM, far=MM: limits for distances and for the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
@@ -199,7 +200,9 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
            source.registration = readRegistration(path);
            source.named_files.push_back(path);
          },
-         "TOML file with the poses of the depth and colour cameras; aligns the depth with the colour picture")
+         "TOML file with the lenses and the relative position of the depth and colour cameras; aligns the depth with "
+         "the "
+         "colour picture")
       ->type_name("FILE.toml");
 }
 
@@ -207,7 +210,8 @@ void addMaterialOption(CLI::App& app, SourceOptions& source) {
   app.add_option_function<std::string>(
          "--material", [&source](const std::string& word) { source.material = readMaterial(word); },
          "What the surface feels like; overrides the film's tags and material track, part by part\n"
-         "stiffness=N/MM [0.5, or what the device holds]; friction=STATIC/DYNAMIC: coefficients [0];\n"
+         "stiffness=N/MM [0.5, or less where the device is not stable at that]; friction=STATIC/DYNAMIC: coefficients "
+         "[0];\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm [0], such as stiffness=.3,friction=.2/.15,texture=.1@.8")
       ->type_name("KEY=VALUE,..");
 }
@@ -227,7 +231,8 @@ void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps) 
          "0=FILE,SECONDS=FILE,..: a painting for each shot, from its first picture on, or a film of such pictures. "
          "Red\n"
          "is stiffness, green friction, blue texture; gray is stiffness alone; what is transparent is not painted.\n"
-         "With it, KEY=VALUE says what full red, green and blue stand for [stiffness=1,friction=.6/.5,texture=.2@.8]")
+         "With a painting, KEY=VALUE says what full red, green and blue stand for "
+         "[stiffness=1,friction=.6/.5,texture=.2@.8]")
       ->allow_extra_args(false)
       ->type_name("FILE|SECONDS=FILE,..|KEY=VALUE,..");
 }

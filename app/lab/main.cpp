@@ -158,7 +158,8 @@ void keepFreedMemory() {
 }
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app("Measures methods of touch on moving depth, and the rendering of it.", "relievo-lab");
+  CLI::App app("Measures methods of touch on moving depth, and how fast and exactly that depth is drawn.",
+               "relievo-lab");
   app.footer(
       "\nExamples:\n"
       "  relievo-lab report --quick --out charts      all charts in a few minutes, with charts/index.html as the "
@@ -180,7 +181,8 @@ int parseAndRun(int argc, char** argv) {
       ->add_option("--depth", options.depth_films,
                    "Depth films whose first pictures are added to the chart of mesh points")
       ->type_name("SOURCE");
-  addMeasurement(app, "report", "runs every measurement missing in DIR and writes an overview page", options);
+  addMeasurement(app, "report", "runs each measurement whose results are not yet in DIR and writes an overview page",
+                 options);
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
 
   if (trace_command->parsed()) return runTraceCommand(trace);

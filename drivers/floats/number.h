@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as files hold them.
+// Decodes the numbers of a file: half to double floats and integers, in either byte order.
 #pragma once
 
 #include <algorithm>

@@ -23,7 +23,8 @@ constexpr const char* kHdf5 =
 constexpr const char* kMatlab =
     "this folder holds MATLAB files; convert them: python3 -c 'import glob, numpy, scipy.io; [numpy.save(f[:-4], "
     "scipy.io.loadmat(f)[\"NAME\"]) for f in glob.glob(\"FOLDER/*.mat\")]', NAME being the variable with the depth";
-// From its camera's centre (1024 x 768 pixels, 886.81 of focal length) to its plane, as the data set's README has it.
+// The command converts distances from the camera's centre to depth along its axis, for the camera that the data set's
+// README describes: 1024 x 768 pixels, a focal length of 886.81 pixels.
 constexpr const char* kHypersim =
     "this folder holds Hypersim's distances from the camera's centre; convert them to depth: python3 -c 'import glob, "
     "h5py, numpy; y, x = numpy.mgrid[-383.5:384, -511.5:512] / 886.81; [numpy.save(f[:-5], "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Returns one recorded tick for each `read`; at another rate than the recorded one, the finger's place in between.
+// Returns one recorded tick for each `read`. At another rate than the recorded one, it interpolates the finger's
+// position between two ticks.
 #include "drivers/replay/replay.h"
 
 #include <algorithm>

@@ -45,7 +45,7 @@ std::optional<CameraMessage> cameraOf(BagFile& bag, const Topic& topic) {
   return std::nullopt;
 }
 
-// k1, k2, p1, p2, k3, k4, k5, k6; nullopt for a lens of another model.
+// k1, k2, p1, p2, k3, k4, k5, k6; nullopt for a lens of a model that is not read here.
 std::optional<std::array<double, kLensCoefficients>> lensOf(const CameraMessage& camera) {
   std::array<double, kLensCoefficients> lens{};
   const auto bends = [](double value) { return value != 0; };

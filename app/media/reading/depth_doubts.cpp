@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kRange = "--calibration codes=LOW-HIGH, or unit=MM,near=MM,far=MM for distances";
 
-// Heights in a box 1 mm deep.
+// The heights of a depth picture, from 0 (far) to 1 (near), and the shares of them at either end.
 struct Relief {
   std::vector<float> heights;  // without holes
   double at_bottom = 0, at_top = 0;

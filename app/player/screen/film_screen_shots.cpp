@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The pictures' folder of the desktop, or here.
+// The desktop's folder of pictures, else the current folder.
 fs::path picturesFolder() {
   const char* const told = std::getenv("XDG_PICTURES_DIR");
   const char* const home = std::getenv("HOME");

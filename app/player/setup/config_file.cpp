@@ -117,7 +117,7 @@ Outcome<FileConfig> parseConfig(const std::string& text, const std::string& path
   try {
     parsed = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    return wrong(path, error.source(), "this is no TOML; a line is key = value under a [table]");
+    return wrong(path, error.source(), "this is not valid TOML; a line is key = value under a [table]");
   }
   FileConfig config{.path = path};
   for (const auto& [table_name, table_node] : parsed) {

@@ -13,7 +13,7 @@
 
 namespace acme {
 
-// Its wire, so that a test can replace it. The arm's own axes: left, toward the user, up.
+// The connection to the arm, as an interface that a test can replace. In the arm's own axes: left, toward the user, up.
 class Wire {
  public:
   virtual ~Wire() = default;

@@ -17,7 +17,7 @@ namespace relievo {
 // True if both pictures have texture but share hardly any of it: they are not two views of one scene.
 [[nodiscard]] bool areOtherPictures(const Frame& first, const Frame& second);
 
-// Whether the picture's halves are two views: StereoSideBySide or StereoTopBottom.
+// StereoSideBySide or StereoTopBottom if the picture's halves are two views of one scene, else nullopt.
 [[nodiscard]] std::optional<Packing> findViews(const Frame& picture);
 
 struct Views {
