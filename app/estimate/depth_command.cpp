@@ -131,7 +131,7 @@ Outcome<void> DepthCommand::waitFor(Lock& lock, Ready ready) {
 bool DepthCommand::isSilent() {
   const auto silence = std::chrono::steady_clock::now() - last_moved_;
   if (silence > setup_.patience / kPatienceToWords && !std::exchange(told_, true)) {
-    log(LogLevel::Warning, "depth", "waiting for \"%s\", which reads and writes nothing (up to %g s)",
+    log(LogLevel::Warning, "media", "waiting for \"%s\", which reads and writes nothing (up to %g s)",
         named(setup_.command).c_str(), std::chrono::duration<double>(setup_.patience).count());
   }
   return silence > setup_.patience;

@@ -120,7 +120,7 @@ TEST(DepthCommand, IsGivenUpIfItStallsOrIsTooLate) {
   testing::internal::CaptureStderr();
   EXPECT_THAT(trial.failureOf("sleep 1000"), HasSubstr("has read and written nothing for 0.1 s"));
   EXPECT_THAT(testing::internal::GetCapturedStderr(),
-              testing::EndsWith("depth: waiting for \"sleep 1000\", which reads and writes nothing (up to 0.1 s)\n"));
+              testing::EndsWith("media: waiting for \"sleep 1000\", which reads and writes nothing (up to 0.1 s)\n"));
   EXPECT_THAT(trial.failureOf("cat >/dev/null; sleep 1000"), HasSubstr("has read and written nothing"));
   EXPECT_THAT(trial.failureOf("cat; exec >&-; exec sleep 1000"), HasSubstr("does not end after its last picture"));
   EXPECT_THAT(trial.failureOf("kept=$(mktemp); cat >$kept; cat $kept; rm $kept", 80),
