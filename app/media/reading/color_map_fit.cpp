@@ -118,7 +118,7 @@ DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationL
         print("%.1f %% at the colour map's %s, apart from the others", 100 * end / all, last ? "end" : "beginning");
     // A network's film has a sky there, and no holes.
     if (depth.model == ColorModel::Yuv) {
-      reading.offer = seen + "; if they are holes: --calibration invalid=" + holes;
+      reading.offer = print("%s; if they are holes: --calibration invalid=%s", seen.c_str(), holes.c_str());
       continue;
     }
     reading.settings["invalid"] = holes;
