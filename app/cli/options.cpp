@@ -188,9 +188,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "law=linear|inverse: codes are proportional to distance or to 1/distance;\n"
          "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
          "codes=LOW-HIGH: the range of codes in use, if not all;\n"
-         "invalid=CODE+CODE+LOW-HIGH..|none: codes that mean no reading; unit=MM: codes are distances, MM mm each, "
-         "from "
-         "near to far;\n"
+         "invalid=CODE+CODE+LOW-HIGH..|none: codes that mean no reading;\n"
+         "unit=MM: codes are distances, MM mm each, from near to far;\n"
          "near=MM, far=MM: limits for distances and for the inverse law")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
@@ -200,9 +199,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
            source.registration = readRegistration(path);
            source.named_files.push_back(path);
          },
-         "TOML file with the lenses and the relative position of the depth and colour cameras; aligns the depth with "
-         "the "
-         "colour picture")
+         "TOML file with the lenses and the relative position of the depth and colour cameras;\n"
+         "aligns the depth with the colour picture")
       ->type_name("FILE.toml");
 }
 
@@ -210,8 +208,8 @@ void addMaterialOption(CLI::App& app, SourceOptions& source) {
   app.add_option_function<std::string>(
          "--material", [&source](const std::string& word) { source.material = readMaterial(word); },
          "What the surface feels like; overrides the film's tags and material track, part by part\n"
-         "stiffness=N/MM [0.5, or less where the device is not stable at that]; friction=STATIC/DYNAMIC: coefficients "
-         "[0];\n"
+         "stiffness=N/MM [0.5, or less where the device is not stable at that];\n"
+         "friction=STATIC/DYNAMIC: coefficients [0];\n"
          "texture=AMPLITUDE@WAVELENGTH: ripples, mm [0], such as stiffness=.3,friction=.2/.15,texture=.1@.8")
       ->type_name("KEY=VALUE,..");
 }
