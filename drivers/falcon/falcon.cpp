@@ -10,7 +10,7 @@
 #include "drivers/falcon/kinematics.h"
 #include "drivers/falcon/link.h"
 #include "drivers/falcon/packet.h"
-#include "drivers/usb/force_session.h"
+#include "drivers/force/force_session.h"
 #include "platform/whole_file.h"
 
 namespace relievo {

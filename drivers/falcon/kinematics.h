@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "drivers/usb/encoder_gate.h"
+#include "drivers/force/encoder_gate.h"
 #include "platform/realtime.h"
 
 namespace relievo::falcon {

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "drivers/falcon/packet.h"
-#include "drivers/usb/motor_limit.h"
+#include "drivers/force/motor_limit.h"
 
 namespace relievo::falcon {
 

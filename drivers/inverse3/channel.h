@@ -10,9 +10,9 @@
 #include <string>
 #include <string_view>
 
+#include "drivers/force/force_port.h"
 #include "drivers/inverse3/frames.h"
 #include "drivers/inverse3/wire.h"
-#include "drivers/usb/force_port.h"
 #include "platform/clock.h"
 
 namespace relievo::inverse3 {

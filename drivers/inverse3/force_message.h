@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/usb/force_port.h"
+#include "drivers/force/force_port.h"
 #include "platform/realtime.h"
 
 namespace relievo::inverse3 {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "drivers/force/force_session.h"
 #include "drivers/inverse3/channel.h"
 #include "drivers/inverse3/force_message.h"
 #include "drivers/inverse3/motion_gate.h"
 #include "drivers/inverse3/snapshot.h"
-#include "drivers/usb/force_session.h"
 #include "hal/haptic_rate.h"
 
 namespace relievo {

@@ -5,8 +5,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "drivers/force/encoder_gate.h"
 #include "drivers/polhem/description.h"
-#include "drivers/usb/encoder_gate.h"
 #include "platform/realtime.h"
 
 namespace relievo::polhem {

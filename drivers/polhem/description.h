@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/usb/encoder_gate.h"
+#include "drivers/force/encoder_gate.h"
 #include "platform/failure.h"
 
 namespace relievo::polhem {

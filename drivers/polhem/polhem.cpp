@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "drivers/force/force_session.h"
+#include "drivers/force/motor_limit.h"
 #include "drivers/polhem/arm.h"
 #include "drivers/polhem/report.h"
-#include "drivers/usb/force_session.h"
-#include "drivers/usb/motor_limit.h"
 
 namespace relievo {
 namespace {

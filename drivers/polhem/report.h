@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/usb/encoder_gate.h"
+#include "drivers/force/encoder_gate.h"
 #include "drivers/usb/usb_port.h"
 #include "platform/realtime.h"
 

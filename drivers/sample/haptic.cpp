@@ -45,7 +45,7 @@ class SampleHaptic final : public HapticDevice {
     const auto position_mm = port_->readPosition();
     if (!position_mm) return std::unexpected(position_mm.error());
     // Without a force for that long, the task hangs. If the hang may be in here, let a separate thread
-    // (drivers/usb/watchdog.h) or the device itself watch.
+    // (drivers/force/watchdog.h) or the device itself watch.
     if (last_force_ && clock_.now() - *last_force_ > kWatchdog) {
       if (auto stopped = push(glm::dvec3(0)); !stopped) return std::unexpected(stopped.error());
       last_force_.reset();

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/usb/force_port.h"
+#include "drivers/force/force_port.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 #include "platform/realtime.h"

@@ -100,12 +100,13 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(included, "hal")) return true;
   if (isUnder(path, "hal")) return false;
   if (isRegistry(path)) return isUnder(included, "drivers");
-  if (isUnder(path,
-              "drivers")) {  // a bus, what a window hears, what kinds of pictures share, what input devices share
+  // A bus, what devices with motors share, what a window hears, what kinds of pictures share, what input devices share.
+  if (isUnder(path, "drivers")) {
     if (driverOf(included) == driverOf(path)) return true;
     if (included == "drivers/evdev/event_nodes.h" || included == "drivers/evdev/event_reports.h") return true;
-    return isUnder(included, "drivers/usb") || isUnder(included, "drivers/window") ||
-           isUnder(included, "drivers/floats") || isUnder(included, "drivers/photo");
+    return isUnder(included, "drivers/usb") || isUnder(included, "drivers/force") ||
+           isUnder(included, "drivers/window") || isUnder(included, "drivers/floats") ||
+           isUnder(included, "drivers/photo");
   }
   if (path.ends_with("/main.cpp") && included == "drivers/registry.h") return true;
   const Room* const room = roomOf(path);
@@ -225,7 +226,7 @@ TEST(Layers, EachKindOfOffenceIsSeen) {
       Example{"drivers/egl/egl.cpp", "#include \"drivers/ffmpeg/ffmpeg.h\"\n"},
       Example{"drivers/egl/egl.cpp", "#include \"drivers/registry.h\"\n"},
       Example{"drivers/v4l2/annex_b.cpp", "#include \"drivers/ffmpeg/views/view_layers.h\"\n"},
-      Example{"drivers/usb/watchdog.cpp", "#include \"drivers/falcon/falcon.h\"\n"},
+      Example{"drivers/force/watchdog.cpp", "#include \"drivers/falcon/falcon.h\"\n"},
       Example{"drivers/window/window_remote.cpp", "#include \"drivers/egl/egl.h\"\n"},
       Example{"drivers/egl/egl.cpp", "#include \"egl.h\"\n"},  // not from the root
       Example{"drivers/registry.cpp", "#include \"app/scene/display_volume.h\"\n"},

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/player/setup/options.h"
-#include "drivers/usb/watchdog.h"
+#include "drivers/force/watchdog.h"
 #include "platform/cyclic_thread.h"
 #include "tests/support/film/clip_maker.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stops the motors of a USB device when no more forces come, since the last command would otherwise act forever.
+// Stops the motors of a haptic device when no more forces come, since the last command would otherwise act forever.
 #pragma once
 
 #include <atomic>
 
-#include "drivers/usb/force_port.h"
+#include "drivers/force/force_port.h"
 #include "platform/clock.h"
 #include "platform/cyclic_thread.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the time since the device answered, and fades the force in and out.
-#include "drivers/usb/force_session.h"
+#include "drivers/force/force_session.h"
 
 #include <algorithm>
 

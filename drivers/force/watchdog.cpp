@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks four times within its patience.
-#include "drivers/usb/watchdog.h"
+#include "drivers/force/watchdog.h"
 
 namespace relievo {
 

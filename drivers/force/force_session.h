@@ -3,8 +3,8 @@
 // force, and reports a device that stops answering.
 #pragma once
 
-#include "drivers/usb/force_port.h"
-#include "drivers/usb/watchdog.h"
+#include "drivers/force/force_port.h"
+#include "drivers/force/watchdog.h"
 #include "platform/clock.h"
 
 namespace relievo {
