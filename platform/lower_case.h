@@ -2,16 +2,15 @@
 // Words in small letters, to compare them.
 #pragma once
 
-#include <cctype>
 #include <string>
 #include <string_view>
 
 namespace relievo {
 
-// Only the letters of ASCII change.
+// Only the letters of ASCII change, in every locale.
 [[nodiscard]] inline std::string lowerCase(std::string_view text) {
   std::string lower(text);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('a' - 'A')) : c;
   return lower;
 }
 

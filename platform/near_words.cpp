@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "platform/lower_case.h"
+
 namespace relievo {
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
@@ -29,7 +31,7 @@ namespace {
 
 // Of a word that was broken off, as `--vol`; empty if it has under three letters, or several begin so.
 std::string onlyWordThatBegins(const std::string& small, std::span<const std::string> words) {
-  const auto begins = [&](const std::string& word) { return inSmallLetters(word).starts_with(small); };
+  const auto begins = [&](const std::string& word) { return lowerCase(word).starts_with(small); };
   const std::size_t letters = small.size() - std::min(small.size(), small.find_first_not_of('-'));
   if (letters < 3 || std::ranges::count_if(words, begins) != 1) return "";
   return *std::ranges::find_if(words, begins);
@@ -38,23 +40,16 @@ std::string onlyWordThatBegins(const std::string& small, std::span<const std::st
 }  // namespace
 
 std::string nearestWord(std::string_view wanted, std::span<const std::string> words) {
-  const std::string small = inSmallLetters(wanted);
+  const std::string small = lowerCase(wanted);
   std::size_t least = leastDifference(wanted);
   std::string nearest;
   for (const std::string& word : words) {
-    const std::size_t distance = editDistance(small, inSmallLetters(word));
+    const std::size_t distance = editDistance(small, lowerCase(word));
     if (distance >= least) continue;
     least = distance;
     nearest = word;
   }
   return nearest.empty() ? onlyWordThatBegins(small, words) : nearest;
-}
-
-std::string inSmallLetters(std::string_view text) {
-  std::string small(text);
-  std::ranges::transform(small, small.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return small;
 }
 
 }  // namespace relievo

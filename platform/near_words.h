@@ -18,7 +18,5 @@ namespace relievo {
 }
 // The nearest of `words`, without regard to case, or the only one that begins so; empty if there is none.
 [[nodiscard]] std::string nearestWord(std::string_view wanted, std::span<const std::string> words);
-// A to Z in small letters.
-[[nodiscard]] std::string inSmallLetters(std::string_view text);
 
 }  // namespace relievo

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "platform/lower_case.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -33,7 +34,7 @@ const std::vector<std::string>& materialWords() {
 
 // " (law?)": the known word that the first unknown word of KEY=VALUE,.. resembles; empty if there is none.
 std::string guessed(const std::string& text, std::span<const std::string> words) {
-  const std::string small = inSmallLetters(text);
+  const std::string small = lowerCase(text);
   for (std::size_t begin = 0; begin < small.size();) {
     const std::size_t end = std::min(small.find_first_of(",=", begin), small.size());
     const std::string word = small.substr(begin, end - begin);
@@ -65,14 +66,14 @@ void readCalibration(const std::string& word, SourceOptions& source) {
     source.named_files.push_back(word);
     return;
   }
-  const auto settings = parseCalibration(inSmallLetters(word));
+  const auto settings = parseCalibration(lowerCase(word));
   if (!settings) throw WordFailure({thing + guessed(word, calibrationWords()), settings.error()});
   for (const auto& [key, value] : *settings) source.command_line[key] = value;  // overrides earlier ones
 }
 
 // A failure names the part of the word that is wrong.
 Material readMaterial(const std::string& word) {
-  const std::string small = inSmallLetters(word);
+  const std::string small = lowerCase(word);
   const auto material = parseMaterial(small);
   if (material) return *material;
   std::istringstream items(small);

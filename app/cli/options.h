@@ -16,6 +16,7 @@
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "platform/failure.h"
+#include "platform/lower_case.h"
 #include "platform/near_words.h"
 
 namespace relievo {
@@ -48,7 +49,7 @@ CLI::Option* addChoice(CLI::App& app, const char* option, T& value,
   }
   const auto choose = [&value, option, choices = std::move(choices), words, all](const std::string& word) {
     for (const auto& [known, meaning] : choices) {
-      if (inSmallLetters(word) != known) continue;
+      if (lowerCase(word) != known) continue;
       value = meaning;
       return;
     }

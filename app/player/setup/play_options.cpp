@@ -13,6 +13,7 @@
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/help_texts.h"
 #include "hal/haptic_rate.h"
+#include "platform/lower_case.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -65,7 +66,7 @@ Duration readDuration(double seconds) {
 
 BackEndName nameOf(const std::string& given) {
   BackEndName name = given;
-  name.word = inSmallLetters(name.word);
+  name.word = lowerCase(name.word);
   return name;
 }
 
@@ -74,7 +75,7 @@ BackEndName nameOf(const std::string& given) {
 CLI::Option* addBackEnd(CLI::App& command, const char* option, BackEndName& chosen, const char* kind, const char* names,
                         const char* help, BackEndName* second = nullptr) {
   const auto judge = [kind, names](const std::string& given) -> std::string {
-    const std::string word = inSmallLetters(BackEndName(given).word);
+    const std::string word = lowerCase(BackEndName(given).word);
     std::istringstream all(names);
     std::vector<std::string> words;
     for (std::string known; all >> known;) {
@@ -105,7 +106,7 @@ void addStereoOptions(CLI::App& command, StereoSettings& stereo) {
     static const std::vector<std::string> kWords{
         "mono",     "sbs",           "sbs:full",       "tab",           "tab:full", "rows", "columns",
         "anaglyph", "anaglyph:gray", "anaglyph:color", "frame-packing", "quilt"};
-    if (parseStereo(inSmallLetters(word), stereo)) return;
+    if (parseStereo(lowerCase(word), stereo)) return;
     throw CLI::ValidationError("--stereo " + word,
                                print("no such layout; it is one of: %s", kLayouts) + meant(word, kWords));
   };
@@ -128,7 +129,7 @@ StereoSignal readSignal(const std::string& word) {
                                                           {"sbs", StereoSignal::SideBySideHalf},
                                                           {"off", StereoSignal::None}};
   for (const auto& [name, signal] : signals) {
-    if (inSmallLetters(word) == name) return signal;
+    if (lowerCase(word) == name) return signal;
   }
   static const std::vector<std::string> kWords{"frame-packing", "tab", "sbs", "off"};
   throw CLI::ValidationError("--tv-signal " + word,

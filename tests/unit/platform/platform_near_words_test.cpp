@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "platform/lower_case.h"
+
 namespace relievo {
 namespace {
 
@@ -26,7 +28,7 @@ TEST(NearWords, FindTheNearestWhateverItsCaseAndNoneThatIsFar) {
   EXPECT_EQ(nearestWord("x", {}), "");
   EXPECT_EQ(nearestWord("--fs", std::vector<std::string>{"--as"}), "") << "one letter of two is another word";
   EXPECT_EQ(nearestWord("paly", std::vector<std::string>{"probe", "play"}), "play");
-  EXPECT_EQ(inSmallLetters("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
+  EXPECT_EQ(lowerCase("SBS:Full-1\xc3\x84"), "sbs:full-1\xc3\x84");
 }
 
 TEST(NearWords, FindTheOneThatWasBrokenOff) {
