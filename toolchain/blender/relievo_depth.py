@@ -5,7 +5,7 @@
 
 FOLDER gets color-0001.png, depth-0001.png, .. for every frame of the scene. MM_PER_UNIT is the size of one
 unit of the scene in mm, by default 1000 (metres). Depth is measured along the camera's axis; 0 marks the sky and everything
-beyond 65 m. At the end the script prints the relievo-author command for the film.
+beyond 65 m. At the end the script prints the relievo-author command for the film. For Blender 3 and 4.
 """
 import os
 import sys
@@ -16,6 +16,8 @@ LARGEST_CODE = 65535
 
 
 def arguments():
+    if bpy.app.version >= (5,):
+        sys.exit("relievo_depth.py: Blender 5 has another compositor; use Blender 3 or 4")
     words = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else []
     if not 1 <= len(words) <= 2:
         sys.exit("relievo_depth.py: blender -b scene.blend -P relievo_depth.py -- FOLDER [MM_PER_UNIT]")
