@@ -5,6 +5,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
+#include <cstdint>
+#include <memory>
 #include <string>
 
 #include "platform/unique_fd.h"
@@ -98,6 +101,43 @@ TEST(RenderFormats, PlanarRgbIsReadByItsPlanes) {
   frame.range = ColorRange::Unspecified;
   frame.owner = planes;
   expectBars(stage.show({.color = frame, .volume = kVolume}), 1);
+}
+
+// Two luma samples share a pair of chroma samples, as webcams deliver them.
+TEST(RenderFormats, Packed422IsReadByItsOffsets) {
+  STAGE_OR_SKIP(stage, 320, 180);
+  const Frame planar = makeYuvFrame(320, 180, {.name = "", .chroma_y = 0});
+  struct Layout {
+    const char* name;
+    std::array<std::uint8_t, 3> offsets;
+  };
+  for (const Layout& layout : {Layout{"yuyv", {0, 1, 3}}, Layout{"uyvy", {1, 0, 2}}, Layout{"yvyu", {0, 3, 1}}}) {
+    SCOPED_TRACE(layout.name);
+    Frame frame = planar;
+    auto bytes = std::make_shared<std::vector<std::uint8_t>>(std::size_t{640} * 180);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t step = c == 0 ? 2 : 4;
+      for (std::size_t i = 0; i < bytes->size() / step; ++i) {
+        const Plane& plane = planar.planes[planar.components[c].plane];
+        const std::size_t cols = 640 / step;
+        (*bytes)[i * step + layout.offsets[c]] = plane.data[static_cast<std::ptrdiff_t>(i / cols) * plane.stride_bytes +
+                                                            static_cast<std::ptrdiff_t>(i % cols)];
+      }
+      frame.components[c] = {.offset_bytes = layout.offsets[c], .step_bytes = static_cast<std::uint8_t>(step)};
+    }
+    frame.planes[0] = {bytes->data(), 640};
+    frame.plane_count = 1;
+    frame.owner = bytes;
+    expectBars(stage.show({.color = frame, .volume = kVolume}), 3);
+  }
+}
+
+TEST(RenderFormats, GrayBesideAlphaIsGray) {
+  STAGE_OR_SKIP(stage, 320, 180);
+  Frame gray = makePlane(64, 18, 8, 126);
+  gray.width = 32;
+  gray.components[0].step_bytes = 2;
+  expectColor(stage.show({.color = gray, .volume = kVolume}), 160, 90, {126, 126, 126}, 1);
 }
 
 TEST(RenderFormats, GrayIsGrayInItsRange) {

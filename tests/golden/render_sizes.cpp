@@ -150,13 +150,6 @@ TEST(RenderFormats, WhatCannotBeDrawnIsRefusedAndThePictureBeforeStays) {
   for (Component& component : five_bits.components) component.bits = 5;
   EXPECT_EQ(refusal(stage, {.color = five_bits, .volume = kVolume}), ErrorCode::Unsupported);
 
-  Frame yuyv = makePlane(64, 18, 8, 128);
-  yuyv.model = ColorModel::Yuv;
-  yuyv.width = 32;
-  yuyv.chroma_shift_x = 1;
-  yuyv.components = {Component{0, 0, 2}, Component{0, 1, 4}, Component{0, 3, 4}};
-  EXPECT_EQ(refusal(stage, {.color = yuyv, .volume = kVolume}), ErrorCode::Unsupported);
-
   EXPECT_EQ(refusal(stage, {.color = Frame{}, .volume = kVolume}), ErrorCode::InvalidArgument);
   // Hue needs colours: the haptic side rejects gray as well.
   EXPECT_EQ(refusal(stage, {.color = white,

@@ -36,21 +36,18 @@ Result<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame
   if (frame.empty() || frame.width < 1 || frame.height < 1) {
     return fail(ErrorCode::InvalidArgument, "the colour picture is empty");
   }
-  constexpr auto kUnknown =
-      "this pixel format cannot be drawn; decode to planar or semi-planar YUV, packed RGB or gray";
-  const auto unknown = fail(ErrorCode::Unsupported, kUnknown);
   const auto& [first, second, third] = frame.components;
   const int bytes = first.bits > 8 ? 2 : 1;
-  const auto alone = [&](const Component& c) { return c.step_bytes == bytes && c.offset_bytes == 0; };
-  const bool readable = first.bits >= 8 && first.bits <= 16 && (bytes == 2 || first.shift == 0);
-  if (!readable) return unknown;
-  if (frame.model == ColorModel::Gray) {
-    if (alone(first)) return Arrangement::Gray;
-    return unknown;
+  const auto isWhole = [](const Component& c) { return c.bits >= 8 && c.bits <= 16 && (c.bits > 8 || c.shift == 0); };
+  const bool gray = frame.model == ColorModel::Gray;
+  if (!isWhole(first) || (!gray && (!isWhole(second) || !isWhole(third)))) {
+    return fail(ErrorCode::Unsupported, "samples of under 8 or over 16 bits cannot be drawn; decode to others");
   }
+  const auto alone = [&](const Component& c) { return c.step_bytes == bytes && c.offset_bytes == 0; };
+  if (gray) return alone(first) ? Arrangement::Gray : Arrangement::Scattered;
 
   const auto likeFirst = [&](const Component& c) { return c.bits == first.bits && c.shift == first.shift; };
-  if (!likeFirst(second) || !likeFirst(third)) return unknown;
+  if (!likeFirst(second) || !likeFirst(third)) return Arrangement::Scattered;
   if (alone(first) && alone(second) && alone(third)) return Arrangement::Planar;
 
   const auto isPair = [&](const Component& c) { return c.step_bytes == 2 * bytes && c.offset_bytes <= bytes; };
@@ -63,7 +60,7 @@ Result<ColorPicture::Arrangement> ColorPicture::arrangementOf(const Frame& frame
   const bool whole = step == 3 * bytes || step == 4 * bytes;
   const bool subsampled = frame.chroma_shift_x != 0 || frame.chroma_shift_y != 0;
   if (whole && !subsampled && isPacked(first) && isPacked(second) && isPacked(third)) return Arrangement::Packed;
-  return unknown;
+  return Arrangement::Scattered;
 }
 
 const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
@@ -77,6 +74,8 @@ const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
       return "#define SAMPLE vec4(texture(plane0, luma_at).r, texture(plane1, chroma_at).rg, 0.0)\n";
     case Arrangement::Packed:
       return "#define SAMPLE texture(plane0, luma_at)\n";
+    case Arrangement::Scattered:
+      break;  // not GL's
   }
   return "";
 }
@@ -94,8 +93,10 @@ Result<void> ColorPicture::setFrame(const Frame& frame) {
   if (std::max(frame.width, frame.height) > largest) {
     return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; use a smaller video");
   }
-  auto prepared = gpu_.prepare(sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries));
-  if (!prepared) return prepared;
+  if (*arrangement != Arrangement::Scattered) {
+    auto prepared = gpu_.prepare(sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries));
+    if (!prepared) return prepared;
+  }
   arrangement_ = *arrangement;
   width_ = frame.width;
   height_ = frame.height;
@@ -126,6 +127,7 @@ glm::ivec2 ColorPicture::samplesOf(const Frame& frame, std::size_t component) no
 
 // Imports all planes or none: after the first refusal the driver is not asked again.
 bool ColorPicture::import(const Frame& frame) {
+  if (arrangement_ == Arrangement::Scattered) return false;
   const std::size_t count = textureCount();
   for (std::size_t i = 0; i < count; ++i) {
     const Component& component = frame.components[i];
@@ -212,7 +214,7 @@ void ColorPicture::bind(GLuint unit, const PixelArea& area, const DisplayVolume&
   const int shown_width = std::max(1, static_cast<int>(area.width * std::min(1.0, picture_aspect / area_aspect)));
   const int shown_height = std::max(1, static_cast<int>(area.height * std::min(1.0, area_aspect / picture_aspect)));
   const glm::ivec2 samples(SeenColor::factorFor(width_, shown_width), SeenColor::factorFor(height_, shown_height));
-  const bool by_cpu = converter_ == Converter::Cpu ||
+  const bool by_cpu = arrangement_ == Arrangement::Scattered || converter_ == Converter::Cpu ||
                       (converter_ == Converter::Automatic && (samples != glm::ivec2(1) || drawsOnCpu()));
   glActiveTexture(GL_TEXTURE0 + unit);
   if (by_cpu && !imported_) {

@@ -30,8 +30,9 @@ class ColorPicture {
   enum class Converter : std::uint8_t { Automatic, Gpu, Cpu };  // imported planes are always converted by the GPU
   explicit ColorPicture(Converter converter = Converter::Automatic) noexcept : converter_(converter) {}
 
-  // Accepts planar and semi-planar YUV, packed and planar RGB, and gray, of 8 to 16 bits; Unsupported for anything
-  // else.
+  // Accepts whole samples of 8 to 16 bits, wherever they lie; Unsupported for anything else. GL reads planar and
+  // semi-planar YUV, packed and planar RGB, and gray; SeenColor reads the rest (packed 4:2:2 of webcams, gray beside
+  // alpha).
   [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
 
   // Takes the planes of a frame that passes `check`: 8 bits unchanged, from dma-bufs without a copy if the GL driver
@@ -50,7 +51,7 @@ class ColorPicture {
   void bind(GLuint unit, const PixelArea& area, const DisplayVolume& volume);
 
  private:
-  enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed };
+  enum class Arrangement : std::uint8_t { Gray, Planar, SemiPlanar, Packed, Scattered };
   static Result<Arrangement> arrangementOf(const Frame& frame) noexcept;
   static const char* sampling(Arrangement arrangement) noexcept;
   [[nodiscard]] std::size_t textureCount() const noexcept;
