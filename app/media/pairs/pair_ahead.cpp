@@ -59,8 +59,9 @@ double distanceOf(const DepthCalibration& c, double code) {
   return at_low + s * (at_high - at_low);
 }
 
-// The option to type so that the codes of `beyond` are included.
-std::string widerOption(const DepthCalibration& c, const Beyond& beyond) {
+// The option to type so that the codes of `beyond` are included. `value`: of a code, 1 unless codes stand for floats,
+// whose own numbers the option takes.
+std::string widerOption(const DepthCalibration& c, const Beyond& beyond, double value) {
   constexpr double kNearer = 0.9, kFarther = 1.1;
   const double low = std::min(beyond.low, c.lowCode()), high = std::max(beyond.high, c.highCode());
   if (c.unit_mm) {
@@ -71,7 +72,8 @@ std::string widerOption(const DepthCalibration& c, const Beyond& beyond) {
   const char* const law = c.law == DepthLaw::Inverse ? "inverse" : "linear";
   const char* const polarity = c.polarity == DepthPolarity::NearIsHigh ? "near-high" : "near-low";
   const double one = distanceOf(c, low), other = distanceOf(c, high);
-  std::string option = print("law=%s,polarity=%s,codes=%.0f-%.0f", law, polarity, low, high);
+  std::string option =
+      print("law=%s,polarity=%s,codes=%.0f-%.0f", law, polarity, std::floor(value * low), std::ceil(value * high));
   if (!c.invalid.empty()) option += ",invalid=" + c.invalid.text();
   if (std::min(one, other) > 0) option += print(",near=%.6g,far=%.6g", std::min(one, other), std::max(one, other));
   return option;
@@ -206,7 +208,7 @@ void PairReader::Impl::checkReach(const Frame& picture) {
       "%s: at %.1f s %.0f %% of the depth is outside the range of the first pictures, and is flat: "
       "--calibration %s",
       depthUrl().c_str(), toSeconds(picture.pts.time_since_epoch()), 100.0 * beyond.outside / beyond.samples,
-      widerOption(calibration, beyond).c_str());
+      widerOption(calibration, beyond, picture.value_per_code != 0 ? std::abs(picture.value_per_code) : 1).c_str());
 }
 
 }  // namespace relievo
