@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
 
 namespace relievo {
@@ -31,9 +32,8 @@ bool isOnNetwork(std::string_view url) {
   return std::ranges::find(kNetwork, schemeOf(url)) != kNetwork.end();
 }
 
-// The name in lower case, without an address's ? and # parts.
 std::string nameOf(std::string_view url) {
-  return lowerCase(url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size()));
+  return lowerCase(withoutQuery(url));
 }
 
 // Resolves a path relative to a URL: "//host/a" keeps the scheme, "/a" the host, "a" the folder. The ? and # parts of
@@ -48,22 +48,6 @@ std::string besideUrl(std::string_view path, std::string_view from) {
   const std::string_view folder =
       last == std::string_view::npos || last < root ? from.substr(0, root) : from.substr(0, last);
   return std::string(folder) + "/" + std::string(path);
-}
-
-// The path of file://HOST/PATH, with %20 decoded.
-std::string pathOf(std::string_view url) {
-  url.remove_prefix(std::string_view("file:").size());
-  if (url.starts_with("//")) url.remove_prefix(std::min(url.find('/', 2), url.size()));
-  std::string path;
-  for (std::size_t i = 0; i < url.size(); ++i) {
-    unsigned char code = 0;
-    const char* const begin = url.data() + i + 1;
-    const bool coded =
-        url[i] == '%' && url.size() - i > 2 && std::from_chars(begin, begin + 2, code, 16).ptr == begin + 2;
-    path += coded ? static_cast<char>(code) : url[i];
-    if (coded) i += 2;
-  }
-  return path;
 }
 
 class Parser {
@@ -104,13 +88,15 @@ class Parser {
     const std::string scheme = schemeOf(text);
     if (from_network_ && scheme.empty()) return besideUrl(text, from_);
     const bool is_file = scheme == "file" && !from_network_;
-    next_.refused = next_.refused || !(scheme.empty() || isOnNetwork(text) || is_file);
-    if (is_file) return pathOf(text);
+    if (is_file) return pathOfFileUrl(text);
+    if (isOnNetwork(text)) return std::string(text);
     const std::filesystem::path path{std::string(text)};
-    if (!scheme.empty() || path.is_absolute()) return std::string(text);
     // Puts "./" before a bare file name: FFmpeg reads some names as protocols, such as "subfile,,..".
     const auto folder = std::filesystem::path(from_).parent_path();
-    return ((folder.empty() ? "." : folder) / path).string();
+    std::string beside = path.is_absolute() ? path.string() : ((folder.empty() ? "." : folder) / path).string();
+    if (scheme.empty() || (!from_network_ && isThere(beside))) return beside;  // "Alien: Covenant.mkv"
+    next_.refused = true;
+    return std::string(text);
   }
 
   const std::string& from_;
@@ -120,6 +106,25 @@ class Parser {
 };
 
 }  // namespace
+
+std::string_view withoutQuery(std::string_view url) {
+  return url.substr(0, isOnNetwork(url) ? url.find_first_of("?#") : url.size());
+}
+
+std::string pathOfFileUrl(std::string_view url) {
+  url.remove_prefix(std::string_view("file:").size());
+  if (url.starts_with("//")) url.remove_prefix(std::min(url.find('/', 2), url.size()));
+  std::string path;
+  for (std::size_t i = 0; i < url.size(); ++i) {
+    unsigned char code = 0;
+    const char* const begin = url.data() + i + 1;
+    const bool coded =
+        url[i] == '%' && url.size() - i > 2 && std::from_chars(begin, begin + 2, code, 16).ptr == begin + 2;
+    path += coded ? static_cast<char>(code) : url[i];
+    if (coded) i += 2;
+  }
+  return path;
+}
 
 bool mayBePlaylist(std::string_view url) {
   const std::string name = nameOf(url);

@@ -19,6 +19,10 @@ struct PlaylistEntry {
   bool operator==(const PlaylistEntry&) const = default;
 };
 
+// Without the ? and # parts of a network address; a file's name may hold both.
+[[nodiscard]] std::string_view withoutQuery(std::string_view url);
+// The path of "file:PATH" and "file://HOST/PATH", with %20 and the like decoded.
+[[nodiscard]] std::string pathOfFileUrl(std::string_view url);
 // Whether the name of this source could be a playlist's: only then is its text read.
 [[nodiscard]] bool mayBePlaylist(std::string_view url);
 // Whether `url` or `text`, the beginning of its content, is a list of films. An HLS playlist begins alike but is one

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/media/playlist.h"
 #include "app/player/player.h"
 #include "platform/print.h"
 
@@ -40,10 +41,10 @@ std::optional<double> secondsOf(std::optional<MediaTime> time) {
 
 }  // namespace
 
-// The last part of the film's path or URL, without a query.
+// The last part of the film's path or URL.
 std::string Player::fileName() const {
   const std::string& url = programme_.film().url;
-  const std::string path = url.substr(0, url.find('?'));
+  const std::string path(withoutQuery(url));
   const std::size_t end = path.find_last_not_of('/');
   if (end == std::string::npos) return url;
   const std::size_t slash = path.rfind('/', end);

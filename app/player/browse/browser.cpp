@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "app/media/playlist.h"
 #include "app/player/browse/shelf_view.h"
 #include "app/player/film/resume.h"
 #include "platform/print.h"
@@ -27,7 +28,7 @@ std::string nameOf(const std::string& place) {
 }
 
 std::string titleOf(const std::string& url) {
-  return fs::path(url.substr(0, url.find('?'))).stem().string();
+  return fs::path(withoutQuery(url)).stem().string();
 }
 
 bool isAddress(const std::string& url) noexcept {

@@ -9,10 +9,12 @@
 
 #include "app/cli/options.h"
 #include "app/media/film_folder.h"
+#include "app/media/playlist.h"
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/help_texts.h"
 #include "hal/haptic_rate.h"
+#include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
 #include "platform/print.h"
 
@@ -32,7 +34,11 @@ constexpr const char* kLayouts =
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 void addSources(CLI::App& command, PlayOptions& play) {
-  const auto take = [&player = play.player](const std::vector<std::string>& sources) {
+  const auto take = [&player = play.player](std::vector<std::string> sources) {
+    for (std::string& source : sources) {  // some desktops give a film's address
+      const std::string path = source.starts_with("file:///") ? pathOfFileUrl(source) : "";
+      if (!path.empty() && isThere(path)) source = path;
+    }
     if (auto series = seriesOf(sources)) {
       player.source.url = std::move(*series);
       return;

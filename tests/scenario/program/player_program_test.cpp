@@ -237,6 +237,13 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
   ::unsetenv("XDG_STATE_HOME");
 }
 
+TEST_F(PlayerProgram, AFilmMayBeGivenByItsFileUrl) {
+  makeClip(at("two words.mkv"), {color(), depth()});
+  const auto result = play("file://" + at("two%20words.mkv") + " --report " + at("r.json"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(reportOf("r.json")["source"], at("two words.mkv"));
+}
+
 TEST_F(PlayerProgram, AListIsPlayedFilmByFilm) {
   makeClip(at("one.mkv"), {color(), depth()});
   makeClip(at("two.mkv"), {color(15), depth(15)});

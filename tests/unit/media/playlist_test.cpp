@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
+#include "tests/support/film/clip_maker.h"
+
 namespace relievo {
 namespace {
 
@@ -71,6 +75,23 @@ TEST(Playlist, OneInAFileOpensFilesButNoTricks) {
   for (const char* line : {"concat:a|b", "data:x", "pipe:0", "crypto:a"}) {
     EXPECT_EQ(refused(line, "list.m3u"), Refused{true}) << line;
   }
+}
+
+// "Alien" could be a protocol.
+TEST(Playlist, AFileBesideItMayHaveAColonInItsName) {
+  const test::TemporaryFolder folder;
+  const std::string from = folder / "list.m3u", film = folder / "Alien: Covenant.mkv";
+  std::ofstream(film) << "film";
+  for (const std::string& line : {std::string("Alien: Covenant.mkv"), film}) {
+    EXPECT_EQ(url(line, from), film);
+    EXPECT_EQ(refused(line, from), Refused{false});
+  }
+  EXPECT_EQ(refused("Aliens: 1986.mkv", from), Refused{true}) << "not there";
+}
+
+TEST(Playlist, ANetworkAddressAloneHasAQuery) {
+  EXPECT_EQ(withoutQuery("http://host/a.mkv?b#c"), "http://host/a.mkv");
+  EXPECT_EQ(withoutQuery("/films/What? A film/#1.mkv"), "/films/What? A film/#1.mkv");
 }
 
 TEST(Playlist, WithoutAnEntryOrWithTooManyItIsNone) {
