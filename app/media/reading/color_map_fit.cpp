@@ -57,26 +57,6 @@ std::optional<ColorMapFit> fit(DepthCode code, const std::vector<YuvColor>& lit)
   return ColorMapFit{code, static_cast<double>(*middle), on_curve / count};
 }
 
-}  // namespace
-
-std::optional<ColorMapFit> bestColorMap(const Frame& picture) {
-  if (picture.empty() || picture.model == ColorModel::Gray) return std::nullopt;
-  const std::vector<YuvColor> lit = litSamples(picture);
-  const auto gray = std::count_if(lit.begin(), lit.end(), [](const YuvColor& color) {
-    return std::hypot(color.u, color.v) < static_cast<float>(kGrayChroma);
-  });
-  if (lit.empty() || static_cast<double>(gray) > kGrayShare * static_cast<double>(lit.size())) return std::nullopt;
-  std::optional<ColorMapFit> best;
-  for (const DepthCode code : kDepthCodes) {
-    if (code == DepthCode::Luma) continue;
-    const auto found = fit(code, lit);
-    if (found && (!best || found->residual < best->residual)) best = found;
-  }
-  return best;
-}
-
-namespace {
-
 // How many samples on the curve have each entry of the map, 0 to 255.
 std::vector<double> entriesOf(const Frame& depth, DepthCode code) {
   constexpr int kMostAcross = 320;
@@ -95,6 +75,22 @@ std::vector<double> entriesOf(const Frame& depth, DepthCode code) {
 }
 
 }  // namespace
+
+std::optional<ColorMapFit> bestColorMap(const Frame& picture) {
+  if (picture.empty() || picture.model == ColorModel::Gray) return std::nullopt;
+  const std::vector<YuvColor> lit = litSamples(picture);
+  const auto gray = std::count_if(lit.begin(), lit.end(), [](const YuvColor& color) {
+    return std::hypot(color.u, color.v) < static_cast<float>(kGrayChroma);
+  });
+  if (lit.empty() || static_cast<double>(gray) > kGrayShare * static_cast<double>(lit.size())) return std::nullopt;
+  std::optional<ColorMapFit> best;
+  for (const DepthCode code : kDepthCodes) {
+    if (code == DepthCode::Luma) continue;
+    const auto found = fit(code, lit);
+    if (found && (!best || found->residual < best->residual)) best = found;
+  }
+  return best;
+}
 
 DepthReading readColorMap(const Frame& depth, DepthCode code, const CalibrationLayers& said) {
   constexpr double kHoles = 0.002, kTimes = 4;

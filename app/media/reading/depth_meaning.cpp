@@ -184,46 +184,50 @@ bool isColorMap(DepthCode code) noexcept {
   return code != DepthCode::Luma && code != DepthCode::Hue;
 }
 
-// Chooses the calibration. Gray is near where it is bright, hues are near in the red. Either end of a colour map is as
-// often near: it is the one that makes the view nearer below. Where the near end is a guess, a doubt says so; where it
-// is only likely, and no known kind, a doubt says that the view is nearer above.
-Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, bool is_known, const Frame& look,
-                                        CalibrationLayers& layers, DepthReading& read,
-                                        std::vector<std::string>& doubts) {
-  const auto choose = [&] {
-    auto choice = chooseCalibration(layers, look, clues.code);
-    if (choice) markGuesses(clues.tags, *choice);
-    return choice;
-  };
-  auto choice = choose();
-  if (!choice) return choice;
-  const CalibrationOrigin by = nearEndOf(*choice).origin;
-  const Certainty certainty = certaintyOf(by);
-  if (certainty == Certainty::Said) return choice;
-  DepthCalibration seen = choice->calibration;
-  if (!read.black.empty()) seen.invalid = CodeSet::parse(read.black).value_or(CodeSet());
-  double nearer = nearerBelow(look, seen);
-  const bool near_high = seen.polarity == DepthPolarity::NearIsHigh;
-  const char* const other = near_high ? "near-low" : "near-high";
-  if (certainty == Certainty::Likely) {
-    const bool upside_down = nearer < -kClearlyNearer;
-    if (!read.unsure && (!upside_down || is_known)) return choice;
-    if (read.offer.empty() && !seen.unit_mm) {
-      read.offer = print("if the other end is near: --calibration polarity=%s", other);
-    }
-    if (read.offer.empty()) return choice;
-    doubts.push_back((upside_down ? "read so, the view is nearer above than below, as few are: " : "") + read.offer);
-    read.offer.clear();
-    return choice;
-  }
-  if (isColorMap(clues.code) && by == CalibrationOrigin::Default && nearer < -kClearlyNearer) {
-    layers.pictures["polarity"] = other;
-    nearer = -nearer;
-    choice = choose();
-    if (!choice) return choice;
-  }
-  doubts.push_back(nearEndLine(choice->calibration, nearer, read.black));
+Result<CalibrationChoice> choose(const DepthClues& clues, const Frame& look, const CalibrationLayers& layers) {
+  auto choice = chooseCalibration(layers, look, clues.code);
+  if (choice) markGuesses(clues.tags, *choice);
   return choice;
+}
+
+const char* otherEndOf(const DepthCalibration& calibration) noexcept {
+  return calibration.polarity == DepthPolarity::NearIsHigh ? "near-low" : "near-high";
+}
+
+// How much nearer the view is below than above. Black that may be a hole says nothing of that.
+double nearerBelow(const Frame& look, DepthCalibration calibration, const DepthReading& read) {
+  if (!read.black.empty()) calibration.invalid = CodeSet::parse(read.black).value_or(CodeSet());
+  return nearerBelow(look, calibration);
+}
+
+// Chooses the calibration. Gray is near where it is bright, hues are near in the red. Either end of a colour map is as
+// often near: it is the one that makes the view nearer below.
+Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
+                                        const DepthReading& read) {
+  auto choice = choose(clues, look, layers);
+  const bool open = choice && isColorMap(clues.code) && nearEndOf(*choice).origin == CalibrationOrigin::Default;
+  if (!open || nearerBelow(look, choice->calibration, read) >= -kClearlyNearer) return choice;
+  layers.pictures["polarity"] = otherEndOf(choice->calibration);
+  return choose(clues, look, layers);
+}
+
+// A doubt where the near end is a guess. Where it is only likely, and no known kind, the offer becomes a doubt if the
+// view is nearer above; empty: none.
+std::string doubtNearEnd(const CalibrationChoice& choice, bool is_known, const Frame& look, DepthReading& read) {
+  const DepthCalibration& calibration = choice.calibration;
+  const CalibrationOrigin by = nearEndOf(choice).origin;
+  if (certaintyOf(by) == Certainty::Said) return "";
+  const double nearer = nearerBelow(look, calibration, read);
+  const bool by_view = isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture;
+  if (by_view || certaintyOf(by) == Certainty::Assumed) return nearEndLine(calibration, nearer, read.black);
+  const bool upside_down = nearer < -kClearlyNearer;
+  if (!read.unsure && (!upside_down || is_known)) return "";
+  if (read.offer.empty() && !calibration.unit_mm) {
+    read.offer = print("if the other end is near: --calibration polarity=%s", otherEndOf(calibration));
+  }
+  if (read.offer.empty()) return "";
+  const char* const view = upside_down ? "read so, the view is nearer above than below, as few are: " : "";
+  return view + std::exchange(read.offer, "");
 }
 
 }  // namespace
@@ -264,9 +268,9 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   DepthReading read = readPictures(clues, kind, look, later, span, layers);
   layers.pictures = clues.pictures;
   layers.pictures.merge(read.settings);
-  std::vector<std::string> doubts;
-  auto choice = chooseNearEnd(clues, kind != nullptr || read.kind != nullptr, look, layers, read, doubts);
+  auto choice = chooseNearEnd(clues, look, layers, read);
   if (!choice) return std::unexpected(choice.error());
+  std::string doubt = doubtNearEnd(*choice, kind != nullptr || read.kind != nullptr, look, read);
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
@@ -286,7 +290,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
-  reading.doubts = std::move(doubts);
+  if (!doubt.empty()) reading.doubts.push_back(std::move(doubt));
   return meaning;
 }
 

@@ -21,8 +21,6 @@ constexpr double kMmPerMetre = 1000;
 constexpr double kFarthestMetres = 200;   // if half of the samples are beyond this, the numbers are millimetres
 constexpr double kLeastCentimetres = 20;  // a scene that is nearer is rare
 constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
-// Disparities whose largest is more than so many times their smallest are relative: 0 does not mean infinitely far.
-constexpr double kMostRatio = 64;
 constexpr double kNearMm = 500;  // of disparities, whose scale is unknown
 constexpr int kNames = 3;        // of a path, from its end
 
@@ -41,11 +39,13 @@ std::optional<double> unitIn(const CalibrationLayers& said) {
 // The codes in use, without outliers.
 struct Reach {
   double low = 0, median = 0, high = 0, holes = 0;
+  bool relative = false;
 };
 Reach reachOf(const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   const std::uint32_t median = count.quantile(0.5, 1, kTop);
-  return {static_cast<double>(low), static_cast<double>(median), static_cast<double>(high), count.share(0, 0)};
+  return {static_cast<double>(low), static_cast<double>(median), static_cast<double>(high), count.share(0, 0),
+          areRelative(count)};
 }
 
 std::string codeRange(double low, double high) {
@@ -84,13 +84,12 @@ DepthReading disparities(const Reach& reach, double value, double top, const Cal
   const double low = kNearer * reach.low, high = std::min(top, kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"polarity", "near-high"}, {"codes", codeRange(low, high)}, {"invalid", "0"}};
-  const bool relative = high > kMostRatio * low;
-  reading.settings["law"] = relative ? "linear" : "inverse";
-  if (!relative && !has(said, "near") && !has(said, "far")) {
+  reading.settings["law"] = reach.relative ? "linear" : "inverse";
+  if (!reach.relative && !has(said, "near") && !has(said, "far")) {
     reading.settings["near"] = print("%.6g", kNearMm);
     reading.settings["far"] = print("%.6g", kNearMm * high / low);
   }
-  reading.why = described(reach, value) + (relative ? ": relative disparities" : ": disparities");
+  reading.why = described(reach, value) + (reach.relative ? ": relative disparities" : ": disparities");
   if (!has(said, "law") && !has(said, "polarity")) {
     reading.offer = "if the numbers are distances: --calibration unit=1000 (metres) or unit=1 (millimetres)";
   }
@@ -139,6 +138,7 @@ bool looksLikeDisparity(const Frame& depth, const CodeCount& count) {
 }
 
 bool areRelative(const CodeCount& count) {
+  constexpr double kMostRatio = 64;
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   return high > kMostRatio * low;
 }

@@ -22,7 +22,9 @@ namespace relievo {
 
 // True if disparities make the picture's lower part clearly nearer than its upper one.
 [[nodiscard]] bool looksLikeDisparity(const Frame& depth, const CodeCount& count);
-// True if the largest number is so many times the smallest that 0 means no distance.
+
+// True if the largest number is so many times the smallest that their zero is arbitrary: neither a distance of 0 nor a
+// disparity of infinitely far.
 [[nodiscard]] bool areRelative(const CodeCount& count);
 
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
