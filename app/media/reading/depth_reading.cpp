@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/media/reading/float_reading.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -93,6 +94,29 @@ std::string otherCodes(const KnownKind& kind, const CodeCount& count) {
   const bool like_raw = all.share(kRawLowest, kRawHighest) == 1;
   return kind.name == std::string_view("mm") && like_raw ? "if they are a first Kinect's raw codes: --as kinect-raw"
                                                          : "";
+}
+
+// Numbers of a network in 16 bits (Depth Anything's raw PNG) use few of them and begin at nearly 0: no sensor sees as
+// near as they would be in mm. In a resized picture of a sensor, some samples beside the holes are nearly 0 too.
+bool isNetwork(const Frame& depth, const CodeCount& count) {
+  constexpr std::uint32_t kNearestMm = 100, kNearMiddleMm = 200;
+  constexpr double kBesideHoles = 0.02;
+  const Reach reach = reachOf(count, 1, kTop);
+  if (depth.model != ColorModel::Gray || count.bits() != 16 || count.step() > kMostStep) return false;
+  if (reach.high >= kMaybeStretched) return false;
+  const double outliers = count.share(0, 0) > kOutliers ? kBesideHoles : kOutliers;
+  const bool from_zero = areRelative(count) && count.quantile(outliers, 1, kTop) < kNearestMm;
+  return from_zero || count.quantile(0.5, 1, kTop) < kNearMiddleMm;
+}
+
+DepthReading readNetwork(const CodeCount& count) {
+  const Reach reach = reachOf(count, 0, kTop);
+  const double high = std::ceil(kFarther * std::max(reach.high, reach.low + 1));
+  DepthReading reading;
+  reading.settings = {{"codes", print("%u-%.0f", reach.low, high)}};
+  reading.why = print("codes of %u to %u: a network's numbers, too near for distances in mm", reach.low, reach.high);
+  reading.offer = "if they are distances in mm: --as mm";
+  return reading;
 }
 
 bool isDistances(const CodeCount& count) {
@@ -239,6 +263,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   const std::uint32_t step = count.step();
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
+  if (isNetwork(depth, count)) return nullptr;
   const Reach reach = reachOf(count, 1, kTop - 1);
   const bool fine =
       (reach.high > kFarthestMm || count.together().quantile(0.5, 1, kTop - 1) > kMiddleMm) && reach.low > kLeastOfFine;
@@ -259,12 +284,13 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
     return depth.model == ColorModel::Yuv || shades ? readShades(depth, count, said) : DepthReading{};
   }
   if (kind == nullptr || !definesCodes({.pictures = settingsOf(*kind)})) kind = sensorKind(depth, count);
-  if (kind == nullptr) return readShades(depth, count, said);
+  if (kind == nullptr) return isNetwork(depth, count) ? readNetwork(count) : readShades(depth, count, said);
   CalibrationLayers with = said;
   with.pictures = settingsOf(*kind);
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
   reading.offer = otherKinds(*kind, count);
+  reading.unsure = !reading.offer.empty() && !otherEnd(count).empty() && looksLikeDisparity(depth, count);
   reading.settings.merge(with.pictures);
   return reading;
 }

@@ -87,6 +87,37 @@ TEST(ShadeReading, BrightIsNearAndADoubtSaysWhatTheViewSays) {
   expect([](int c, int) { return 30 + 2 * c; }, "bright is taken;");
 }
 
+// Sixteen bits whose codes begin at nearly 0, as a network's raw numbers do: in mm they would be nearer than any sensor
+// sees. Others without a hole are distances, doubted if that makes the floor far.
+TEST(ShadeReading, SixteenBitsFromZeroOnAreNotMillimetres) {
+  const auto meaning_of = [](int low, int high) {
+    const Frame frame =
+        makeGrayFrame(64, 96, 16, {}, [=](int c, int r) { return low + (high - low) * (64 * r + c) / (64 * 96); });
+    return readMeaning({}, nullptr, frame).value();
+  };
+  for (const auto& [low, high] : {std::pair{0, 12}, {0, 300}, {60, 300}, {40, 5000}, {0, 20000}}) {
+    const DepthMeaning meaning = meaning_of(low, high);
+    const DepthCalibration& calibration = meaning.calibration.calibration;
+    EXPECT_EQ(calibration.polarity, DepthPolarity::NearIsHigh) << high;
+    EXPECT_FALSE(calibration.unit_mm) << high;
+    EXPECT_NEAR(calibration.codes.value().high, 1.1 * high, 0.01 * high + 1);
+    EXPECT_THAT(meaning.reading.doubts, ElementsAre(AllOf(HasSubstr("bright is taken"), HasSubstr("near-low"))));
+    EXPECT_THAT(meaning.reading.offers, ElementsAre(HasSubstr("--as mm")));
+  }
+  for (const auto& [low, high] : {std::pair{250, 1200}, {700, 5000}, {130, 20000}}) {
+    const DepthMeaning meaning = meaning_of(low, high);
+    EXPECT_EQ(meaning.calibration.calibration.unit_mm, 1) << high;
+    EXPECT_THAT(meaning.reading.doubts, ElementsAre(AllOf(HasSubstr("nearer above"), HasSubstr("--as heights"))));
+  }
+}
+
+TEST(ShadeReading, HolesWithSoftEdgesStayHolesOfDistances) {
+  const Frame resized = makeGrayFrame(200, 100, 16, {}, [](int c, int r) {
+    return c < 20 ? 0 : c == 20 ? r : 800 + 10 * c;
+  });
+  EXPECT_EQ(sensorKind(resized, CodeCount(resized)), findKind("mm"));
+}
+
 TEST(ShadeReading, AFilmThatIsNamedDisparityIsNearWhereItIsBright) {
   const DepthMeaning named =
       meaningOf([](int, int r) { return 220 - 2 * r; }, ColorModel::Yuv, {.path = "a/clip_disparity.mp4"});
