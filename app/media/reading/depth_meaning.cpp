@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_doubts.h"
