@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <initializer_list>
+#include <map>
 #include <utility>
 
 #include "hal/media/media_names.h"
@@ -21,28 +22,47 @@ std::string stemOf(const std::string& name) {
   return name.substr(0, name.rfind('.'));
 }
 
-// The file in `names` that holds the depth of `film`: "a-depth" beside "a", or "depth_a" beside "color_a"; empty if
-// there is none.
-std::string depthOf(const std::string& film, const std::vector<std::string>& names) {
-  const std::string stem = stemOf(film);
+// Files by their names without ending, in small letters.
+using FilesByStem = std::multimap<std::string, std::string>;
+FilesByStem byStem(const std::vector<std::string>& names) {
+  FilesByStem files;
+  for (const std::string& name : names) files.emplace(lowerCase(stemOf(name)), name);
+  return files;
+}
+
+// Names that the depth of a film of this name may have, the usual ones first: "a-depth" for "a", "depth_a" for
+// "color_a".
+std::vector<std::string> depthStems(const std::string& stem) {
   std::vector<std::string> stems;
-  for (const std::string depth : {"depth", "disparity"}) {
-    for (const char* const between : {"-", "_", "."}) {
-      stems.push_back(print("%s%s%s", stem.c_str(), between, depth.c_str()));
-    }
-    for (const std::string word : {"color", "colour", "rgb", "image"}) {
+  for (const std::string depth : {"depth", "disparity", "disp"}) {
+    for (const char* const between : {"-", "_", "."}) stems.push_back(stem + between + depth);
+    for (const std::string word : {"color", "colour", "rgb", "image", "left"}) {
       const std::size_t at = stem.find(word);
       if (at != stem.npos) stems.push_back(std::string(stem).replace(at, word.size(), depth));
     }
+    for (const char* const between : {"-", "_"}) stems.push_back(depth + between + stem);
   }
   for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
     if (!stem.ends_with(of_source)) continue;
     const std::string base = stem.substr(0, stem.rfind('_'));
     stems.insert(stems.end(), {base + "_depth", base + "_vis"});
   }
-  for (const std::string& wanted : stems) {
-    const auto found = std::ranges::find(names, wanted, stemOf);
-    if (found != names.end()) return *found;
+  return stems;
+}
+
+// The file that holds the depth of `film`; empty if there is none.
+std::string depthOf(const std::string& film, const FilesByStem& files) {
+  const std::string stem = lowerCase(stemOf(film));
+  for (const std::string& wanted : depthStems(stem)) {
+    if (const auto found = files.lower_bound(wanted); found != files.end() && found->first == wanted)
+      return found->second;
+  }
+  if (saysDepth(film)) return "";
+  // "a_video_depth", "a_depth_vis"
+  for (auto at = files.upper_bound(stem); at != files.end() && at->first.starts_with(stem); ++at) {
+    const std::string rest = at->first.substr(stem.size());
+    const bool is_apart = std::isalnum(static_cast<unsigned char>(rest.front())) == 0;
+    if (is_apart && saysDepth(at->second) && rest.find("mask") == rest.npos) return at->second;
   }
   return "";
 }
@@ -62,7 +82,7 @@ std::string depthFileOf(const std::string& film, std::vector<std::string> files,
   }
   if (const auto series = seriesOf(pictures)) return *series;
   std::erase_if(files, [](const std::string& name) { return !mayHoldFilm(name); });
-  const std::string depth = depthOf(film, files);
+  const std::string depth = depthOf(film, byStem(files));
   return depth.empty() ? "" : (place / depth).string();
 }
 
@@ -105,7 +125,8 @@ std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<st
   std::ranges::sort(names, naturalLess);
   std::vector<std::string> depths;
   depths.reserve(names.size());
-  for (const std::string& name : names) depths.push_back(depthOf(name, names));
+  const FilesByStem files = byStem(names);
+  for (const std::string& name : names) depths.push_back(depthOf(name, files));
   const fs::path place(folder);
   std::vector<PlaylistEntry> films;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -141,7 +162,7 @@ std::string depthBeside(const std::string& film) {
     const bool fits = kind == MediaKind::Film ? mayHoldFilm(name) : mediaKindOf(name) == kind;
     if (fits && is == FolderEntry::Kind::File) names.push_back(name);
   }
-  const std::string depth = depthOf(path.filename().string(), names);
+  const std::string depth = depthOf(path.filename().string(), byStem(names));
   if (depth.empty() && kind == MediaKind::Film) {
     const auto pair = filmOverDepth(folder);
     return pair && fs::path(pair->film).filename() == path.filename() ? pair->depth : "";
