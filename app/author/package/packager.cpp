@@ -6,6 +6,7 @@
 #include "app/author/package/color_to_420.h"
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
+#include "app/media/reading/depth_doubts.h"
 #include "app/scene/height_field.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
@@ -58,7 +59,7 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   if (auto planned = planMaterial(pair); !planned) return planned;
   const Material whole = material_ ? withoutThoseOf(material_->scale(), info.material) : info.material;
   if (!whole.empty()) format_.depth_tags[kMaterialTag] = materialText(whole);
-  format_.depth_tags["DEPTH_READ_AS"] = plainLine(info.reading, sourceCalibration());
+  format_.depth_tags[kReadAsTag] = plainLine(info.reading, sourceCalibration());
   auto writer =
       FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep, keptTracks());
   if (!writer) return failOn(output_.path, writer.error());

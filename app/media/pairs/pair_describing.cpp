@@ -148,7 +148,8 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   }
   info.calibration = std::move(meaning->calibration);
   info.reading = std::move(meaning->reading);
-  auto doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color);
+  const bool by_author = clues.tags.contains(kReadAsTag);
+  auto doubts = doubtsOf(look, info.calibration.calibration, color.empty() ? nullptr : &color, by_author);
   std::ranges::move(doubts, std::back_inserter(info.reading.doubts));
   if (!tagged) info.reading.doubts.push_back(print("its tag %s is left out: %s", kMaterialTag, tagged.error().message));
   if (material.refused() != nullptr) {

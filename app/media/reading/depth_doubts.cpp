@@ -14,6 +14,8 @@
 namespace relievo {
 namespace {
 
+constexpr double kOneCode = 0.95;  // share of the samples that are no holes
+
 constexpr const char* kRange = "--calibration codes=LOW-HIGH, or unit=MM,near=MM,far=MM for distances";
 
 // The heights of a depth picture, from 0 (far) to 1 (near), and the shares of them at either end.
@@ -41,8 +43,10 @@ struct Relief {
     std::nth_element(heights.begin(), nth, heights.end());
     return static_cast<double>(*nth);
   }
-  [[nodiscard]] double share(double height) const {
-    return static_cast<double>(std::count(heights.begin(), heights.end(), static_cast<float>(height))) / count();
+  // Of the code that most samples have, if one is so frequent.
+  [[nodiscard]] double sameShare() {
+    const auto middle = static_cast<float>(quantile(0.5));
+    return static_cast<double>(std::count(heights.begin(), heights.end(), middle)) / count();
   }
 };
 
@@ -55,15 +59,14 @@ std::string likelyKind(const Frame& depth, const DepthCalibration& calibration) 
 }
 
 std::string doubtRelief(const Frame& depth, const DepthCalibration& calibration) {
-  constexpr double kLeastRelief = 0.05, kOneCode = 0.95, kClipped = 0.1;
+  constexpr double kLeastRelief = 0.05, kClipped = 0.1;
   const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
   if (!field) return "";
   Relief relief(*field);
   if (relief.heights.empty()) {
     return "the whole depth picture is holes, so nothing can be felt: check --calibration invalid=";
   }
-  const double same = relief.share(relief.quantile(0.5));
-  if (same > kOneCode) {
+  if (const double same = relief.sameShare(); same > kOneCode) {
     return print("%.0f %% of the depth is one code: an empty picture, or not depth", 100 * same);
   }
   if (const double used = relief.quantile(0.995) - relief.quantile(0.005); used < kLeastRelief) {
@@ -159,6 +162,13 @@ std::string doubtShape(const Frame& depth, const Frame& color) {
 
 }  // namespace
 
+bool isLevel(const Frame& depth, const DepthCalibration& calibration) {
+  const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
+  if (!field) return false;
+  Relief relief(*field);
+  return relief.heights.empty() || relief.sameShare() > kOneCode;
+}
+
 double nearerBelow(const Frame& depth, const DepthCalibration& calibration) {
   constexpr int kMost = 64;  // rows of a third, and columns, that are examined
   const auto field = HeightField::make(depth, calibration, {.width_mm = 1, .height_mm = 1, .depth_mm = 1});
@@ -195,7 +205,8 @@ std::string nearEndLine(const DepthCalibration& calibration, double nearer_below
   return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "");
 }
 
-std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color) {
+std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color,
+                                  bool by_author) {
   std::vector<std::string> doubts;
   const auto add = [&doubts](std::string doubt) {
     if (!doubt.empty()) doubts.push_back(std::move(doubt));
@@ -203,7 +214,7 @@ std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& ca
   add(doubtRelief(depth, calibration));
   add(doubtPattern(depth, calibration));
   const bool whole = calibration.code == DepthCode::Luma && !hasManyHoles(depth, calibration);
-  if (color != nullptr && whole && areViews(*color, depth)) {
+  if (color != nullptr && whole && !by_author && areViews(*color, depth)) {
     add("colour and depth show the same picture: two views or a copy, not depth; check --depth");
   } else {
     add(doubtColor(depth, calibration, color));

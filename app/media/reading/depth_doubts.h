@@ -10,10 +10,17 @@
 
 namespace relievo {
 
+// A tag of relievo-author's films: how it read their depth.
+inline constexpr const char* kReadAsTag = "DEPTH_READ_AS";
+
 // One line each, with the share of samples and the option to try. `color`: the picture beside the depth, if it is one
-// of its own; null if both are halves of one picture.
+// of its own; null if both are halves of one picture. `by_author`: a film of relievo-author, which shows depth without
+// colour as gray, and has told whether the two are otherwise alike.
 [[nodiscard]] std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration,
-                                                const Frame* color = nullptr);
+                                                const Frame* color = nullptr, bool by_author = false);
+
+// True if nearly all of the relief is one code, or it is all holes: no end of it is near.
+[[nodiscard]] bool isLevel(const Frame& depth, const DepthCalibration& calibration);
 
 // How much nearer the lower third of the relief is than the upper one, as a share of its depth: most views show a
 // floor, a table or a road. Clearly if beyond kClearlyNearer. 0 if either third is holes.

@@ -217,7 +217,7 @@ Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& lo
 std::string doubtNearEnd(const CalibrationChoice& choice, bool is_known, const Frame& look, DepthReading& read) {
   const DepthCalibration& calibration = choice.calibration;
   const CalibrationOrigin by = nearEndOf(choice).origin;
-  if (certaintyOf(by) == Certainty::Said) return "";
+  if (certaintyOf(by) == Certainty::Said || isLevel(look, calibration)) return "";
   const double nearer = nearerBelow(look, calibration, read);
   const bool by_view = isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture;
   if (by_view || certaintyOf(by) == Certainty::Assumed) return nearEndLine(calibration, nearer, read.black);

@@ -213,6 +213,20 @@ TEST(Recordings, EveryPartSaysWhoSaidIt) {
   EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
 }
 
+// Its colour is the depth as gray; its maker has told whether the two are alike otherwise.
+TEST(Recordings, AnAuthorsFilmOfDepthAloneIsNotDoubted) {
+  const TemporaryFolder folder;
+  ClipTrack gray{.pix_fmt = "gray", .width = kSceneCols, .height = kSceneRows, .frames = 2};
+  gray.sample = [](int, int c, int r, int) { return yuvCode(0, photoOf(c, r)); };
+  ClipTrack depth = gray;
+  depth.tags = {{"title", "depth"}, {"DEPTH_POLARITY", "near-high"}};
+  makeClip(folder / "copy.mkv", {gray, depth});
+  depth.tags["DEPTH_READ_AS"] = "depth brightness";
+  makeClip(folder / "author.mkv", {gray, depth});
+  EXPECT_THAT(open({.url = folder / "copy.mkv"}).info.reading.doubts, Contains(HasSubstr("the same picture")));
+  EXPECT_THAT(open({.url = folder / "author.mkv"}).info.reading.doubts, Not(Contains(HasSubstr("the same picture"))));
+}
+
 // The tags of a film do not state what its author only assumed.
 TEST(Recordings, AGuessStaysOneInTheFilmsTags) {
   TemporaryFolder folder;

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
@@ -85,6 +87,18 @@ TEST(ShadeReading, BrightIsNearAndADoubtSaysWhatTheViewSays) {
   expect([](int, int r) { return 220 - 2 * r; }, "bright is taken, although");
   expect([](int, int r) { return 30 + 2 * r; }, "bright is taken, which makes");
   expect([](int c, int) { return 30 + 2 * c; }, "bright is taken;");
+}
+
+TEST(ShadeReading, ALevelPictureIsNearAtNeitherEnd) {
+  const auto doubts = [](std::uint32_t others) {
+    const Frame frame = makeGrayFrame(64, 96, 8, {}, [=](int, int r) { return r < 4 ? 90 : others; });
+    const DepthMeaning meaning = readMeaning({}, nullptr, frame).value();
+    std::vector<std::string> all = meaning.reading.doubts;
+    std::ranges::move(doubtsOf(frame, meaning.calibration.calibration), std::back_inserter(all));
+    return all;
+  };
+  EXPECT_THAT(doubts(90), ElementsAre(HasSubstr("is one code")));
+  EXPECT_THAT(doubts(7), ElementsAre(HasSubstr("is one code")));
 }
 
 // Sixteen bits whose codes begin at nearly 0, as a network's raw numbers do: in mm they would be nearer than any sensor
