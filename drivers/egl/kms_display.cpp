@@ -108,11 +108,10 @@ Result<kms::Connector> KmsDisplay::findConnector() {
   }
   auto found = findScreen(path_);
   if (!found) return std::unexpected(found.error());
-  gl_.reset();
-  card_ = std::move(found->card);
-  auto gl = kms::CardGl::start(card_.get());
+  auto gl = kms::CardGl::start(found->card.get());
   if (!gl) return std::unexpected(gl.error());
-  gl_ = std::move(*gl);
+  gl_ = std::move(*gl);  // the old one ends before its card closes
+  card_ = std::move(found->card);
   packing_ = kms::packingOf(kms::driverOf(card_.get()));
   return std::move(found->connector);
 }
