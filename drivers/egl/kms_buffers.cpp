@@ -53,11 +53,12 @@ Result<std::unique_ptr<Buffers>> Buffers::make(const CardGl& gl, EGLConfig confi
   return fail(ErrorCode::Exhausted, "the card cannot allocate buffers of this size; choose a smaller --size");
 }
 
+// Mesa releases a buffer through the EGL surface.
 Buffers::~Buffers() {
-  if (surface_ != EGL_NO_SURFACE) eglDestroySurface(gl_.display(), surface_);
   for (gbm_bo* buffer : {on_screen_, next_}) {
     if (buffer != nullptr) gbm_surface_release_buffer(surface_of_buffers_, buffer);
   }
+  if (surface_ != EGL_NO_SURFACE) eglDestroySurface(gl_.display(), surface_);
   if (surface_of_buffers_ != nullptr) gbm_surface_destroy(surface_of_buffers_);
 }
 
