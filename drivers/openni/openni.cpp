@@ -41,6 +41,7 @@ class OpenniSource final : public MediaSource {
     cancelled_ = false;
     if (auto opened = file_.open(plainPath(url)); !opened) return std::unexpected(opened.error());
     auto nodes = findNodes(file_, cancelled_);
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (!nodes) return std::unexpected(nodes.error());
     nodes_ = std::move(*nodes);
     const auto depth = findFirst(NodeKind::Depth), color = findFirst(NodeKind::Color);
@@ -108,9 +109,7 @@ class OpenniSource final : public MediaSource {
       if (cancelled_) return std::unexpected(cancelledError());
       const Place& place = places_[next_++];
       if (auto packet = readPicture(place)) return packet;
-      if (const auto error = file_.error()) {
-        return fail(ErrorCode::Lost, "the recording can no longer be read; check the disk", error->os_error);
-      }
+      if (const auto failure = file_.failure()) return std::unexpected(*failure);
     }
     if (cancelled_) return std::unexpected(cancelledError());
     return std::nullopt;

@@ -26,6 +26,7 @@ Result<void> RecordFile::open(const std::string& path) {
   if (!size) return std::unexpected(size.error());
   bytes_ = *size;
   const auto header = read(0, kFileHeader, kFileHeader);
+  if (const auto failed = failure()) return std::unexpected(*failed);
   ByteReader fields(header ? std::span<const std::uint8_t>(*header) : std::span<const std::uint8_t>());
   if (fields.value<std::uint32_t>() != kFileMagic) {
     return fail(ErrorCode::Corrupt, "is no recording of OpenNI; check the file");
@@ -73,12 +74,6 @@ std::optional<std::vector<std::uint8_t>> RecordFile::read(std::uint64_t begin, s
 
 std::optional<std::vector<std::uint8_t>> RecordFile::fieldsOf(const Record& record) const {
   return read(record.fields_begin, record.data_begin, kMostFields);
-}
-
-std::optional<Error> RecordFile::error() const {
-  std::array<std::uint8_t, 1> byte{};
-  const auto got = file_.read(0, byte);
-  return got ? std::nullopt : std::optional(got.error());
 }
 
 }  // namespace relievo::openni

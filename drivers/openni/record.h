@@ -42,8 +42,7 @@ class RecordFile {
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> read(std::uint64_t begin, std::uint64_t end,
                                                               std::uint64_t most_bytes) const;
   [[nodiscard]] std::optional<std::vector<std::uint8_t>> fieldsOf(const Record& record) const;
-  // Why the file can no longer be read, if so.
-  [[nodiscard]] std::optional<Error> error() const;
+  [[nodiscard]] std::optional<Error> failure() const { return file_.failure(); }
   // Positions have 64 bits, and records may say where a table of pictures is.
   [[nodiscard]] bool wide() const noexcept { return wide_; }
 

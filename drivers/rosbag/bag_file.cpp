@@ -33,14 +33,14 @@ Result<void> BagFile::open(const std::string& path, const std::atomic<bool>& can
   file_ = {.file = std::move(*file), .begin = 0, .bytes = *bytes, .memory = nullptr};
   std::array<std::uint8_t, kMagic.size()> magic{};
   if (file_.read(0, magic) < magic.size() || !std::equal(kMagic.begin(), kMagic.end(), magic.begin())) {
-    if (const auto error = file_.errorAt(0)) return std::unexpected(*error);
+    if (const auto failed = failure()) return std::unexpected(*failed);
     return fail(ErrorCode::Unsupported, "only bags of the format 2.0 are supported; convert it (rosbag fix)");
   }
   const auto header = readRecord(file_, kMagic.size());
   const bool indexed = header && header->op == Op::BagHeader && readIndex(*header, cancelled);
   if (!indexed) scan(cancelled);
   if (cancelled) return fail(ErrorCode::Cancelled, "interrupted while the bag was opened");
-  if (const auto error = file_.errorAt(0)) return std::unexpected(*error);
+  if (const auto failed = failure()) return std::unexpected(*failed);
   if (chunks_.empty()) return fail(ErrorCode::Corrupt, "the bag holds no data; it was cut off before the first chunk");
   return {};
 }

@@ -31,6 +31,7 @@ class BagFile {
   // after the flag is set.
   [[nodiscard]] Result<void> open(const std::string& path, const std::atomic<bool>& cancelled);
   void close() noexcept { *this = BagFile(); }
+  [[nodiscard]] std::optional<Error> failure() const { return file_.file.failure(); }
 
   [[nodiscard]] const std::map<std::uint32_t, Connection>& connections() const noexcept { return connections_; }
   // The content of a chunk; the last one unpacked is kept. A chunk that cannot be unpacked is empty; so are all, once

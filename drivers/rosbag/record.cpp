@@ -47,13 +47,6 @@ std::size_t Range::read(std::uint64_t at, std::span<std::uint8_t> out) const {
   return file.read(begin + at, out.first(count)).value_or(0);
 }
 
-std::optional<Error> Range::errorAt(std::uint64_t at) const {
-  if (memory || at >= bytes) return std::nullopt;
-  std::array<std::uint8_t, 1> byte{};
-  const auto got = file.read(begin + at, byte);
-  return got ? std::nullopt : std::optional(got.error());
-}
-
 std::optional<Record> readRecord(const Range& range, std::uint64_t at) {
   std::array<std::uint8_t, kUsualHeader> usual;
   const std::size_t got = range.read(at, usual);

@@ -31,8 +31,6 @@ struct Range {
 
   // The number of bytes read; fewer than asked for at the end of the range, or if the file cannot be read.
   [[nodiscard]] std::size_t read(std::uint64_t at, std::span<std::uint8_t> out) const;
-  // The error of reading the file at `at`; nullopt if it can be read there.
-  [[nodiscard]] std::optional<Error> errorAt(std::uint64_t at) const;
 };
 
 enum class Op : std::uint8_t {

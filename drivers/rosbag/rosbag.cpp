@@ -52,6 +52,7 @@ class RosbagSource final : public MediaSource {
     }
     Topics topics = findTopics(bag_);
     if (cancelled_) return std::unexpected(cancelledError());
+    if (const auto failure = bag_.failure()) return std::unexpected(*failure);
     if (topics.pictures.empty()) {
       if (topics.packed_depth) return fail(ErrorCode::Unsupported, kPackedDepth);
       if (topics.unknown) return fail(ErrorCode::Unsupported, kNoKnownPictures);
@@ -171,16 +172,10 @@ class RosbagSource final : public MediaSource {
       const Range& content = bag_.content(chunks_[place_.chunk]);
       MessageWalk walk(content, place_.at);
       const auto record = walk.next();
-      if (!record) {
-        if (const auto error = content.errorAt(walk.at())) {
-          if (error->code != ErrorCode::Io) return std::unexpected(*error);
-          return fail(ErrorCode::Lost, "the bag can no longer be read; check the disk", error->os_error);
-        }
-        place_ = {.chunk = place_.chunk + 1, .at = 0};
-        continue;
-      }
-      place_.at = walk.at();
-      if (auto packet = packetOf(content, *record)) return packet;
+      auto packet = record ? packetOf(content, *record) : std::nullopt;
+      place_ = record ? Place{place_.chunk, walk.at()} : Place{place_.chunk + 1, 0};
+      if (packet) return packet;
+      if (const auto failure = bag_.failure()) return std::unexpected(*failure);
     }
     if (cancelled_) return std::unexpected(cancelledError());
     return std::nullopt;

@@ -30,8 +30,10 @@ class DepthBinSource final : public MediaSource {
     number_ = 0;
     auto file = AnsweredFile::open(plainPath(url));
     if (!file) return std::unexpected(file.error());
-    auto bin = DepthBin::open(std::move(*file), cancelled_);
+    file_ = std::move(*file);
+    auto bin = DepthBin::open(file_, cancelled_);
     if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while reading the scan");
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (!bin) return std::unexpected(bin.error());
     bin_.emplace(std::move(*bin));
     rate_ = pictureRate().value_or(kUsualRate);
@@ -60,6 +62,7 @@ class DepthBinSource final : public MediaSource {
     while (!cancelled_) {
       auto mm = std::make_shared<std::vector<std::uint8_t>>();
       const DepthBin::Read read = bin_->next(*mm);
+      if (const auto failure = file_.failure()) return std::unexpected(*failure);
       if (read == DepthBin::Read::End) return std::nullopt;
       const std::size_t number = number_++;
       if (read == DepthBin::Read::Damaged) {
@@ -86,10 +89,14 @@ class DepthBinSource final : public MediaSource {
     return {};
   }
 
-  void closeSource() noexcept override { bin_.reset(); }
+  void closeSource() noexcept override {
+    bin_.reset();
+    file_.close();
+  }
   void interrupted() noexcept override { cancelled_ = true; }
 
   std::atomic<bool> cancelled_{false};
+  AnsweredFile file_;
   std::optional<DepthBin> bin_;
   double rate_ = kUsualRate;
   std::size_t number_ = 0;  // of the next picture

@@ -40,6 +40,7 @@ class ScanSource final : public MediaSource {
     const std::string ending = endingOf(path);
     auto read = ending == "klg" ? readKlg(file_, cancelled_) : readSens(file_, cancelled_);
     if (!read && ending.empty()) read = readKlg(file_, cancelled_);  // a pipe's or a memory's file has no ending
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (!read) return std::unexpected(read.error());
     scan_ = std::move(*read);
     has_color_ = scan_.frames.front().color.bytes > 0;
@@ -87,6 +88,7 @@ class ScanSource final : public MediaSource {
       auto stored = readPlace(file_, depth ? scan_.frames[frame].depth : scan_.frames[frame].color);
       auto packet = stored ? packetOf(scan_, depth, std::move(*stored)) : std::nullopt;
       if (!packet) {
+        if (const auto failure = file_.failure()) return std::unexpected(*failure);
         countMissed(1);
         continue;
       }

@@ -18,6 +18,7 @@ class TiffSource final : public CountedSource {
  private:
   Result<Description> describe(const std::string& url) override {
     auto pages = tiff::Pages::of(file_);
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (!pages) return fail(ErrorCode::Corrupt, "is no TIFF of several pages; check the file");
     pages_ = std::move(*pages);
     auto stream = describe_(url);
@@ -40,6 +41,7 @@ class TiffSource final : public CountedSource {
       if (isInterrupted()) return fail(ErrorCode::Cancelled, "interrupted");
       auto page = pages_.page(file_, static_cast<std::size_t>(next_++));
       if (!page) {
+        if (const auto failure = file_.failure()) return std::unexpected(*failure);
         countMissed(1);
         continue;
       }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -79,6 +80,14 @@ struct AnsweredFile::State {
   // Whether the file system reports what the kernel has cached. Those that may stall do not.
   enum class AtOnce : std::uint8_t { Unknown, Yes, No };
   std::atomic<AtOnce> at_once = AtOnce::Unknown;
+  std::mutex mutex;  // guards what follows
+  std::optional<Error> first_error;
+
+  std::unexpected<Error> noted(const Error& error) {
+    const std::scoped_lock lock(mutex);
+    if (!first_error) first_error = error;
+    return std::unexpected(error);
+  }
 
   // Nullopt if the kernel would have to wait.
   std::optional<Result<std::size_t>> readFromMemory(std::uint64_t offset, std::span<std::uint8_t> out) {
@@ -89,7 +98,7 @@ struct AnsweredFile::State {
     at_once = able ? AtOnce::Yes : AtOnce::No;
     if (got >= 0) return static_cast<std::size_t>(got);
     if (!able || errno == EAGAIN || errno == EINTR) return std::nullopt;
-    return fail(ErrorCode::Io, kFailed, errno);
+    return noted({ErrorCode::Io, errno, kFailed});
   }
 };
 
@@ -108,10 +117,12 @@ bool AnsweredFile::regular() const noexcept {
 }
 
 Result<std::uint64_t> AnsweredFile::bytes() const {
-  return answerOf(state_->path, [state = state_]() -> std::uint64_t {
+  const auto bytes = answerOf(state_->path, [state = state_]() -> std::uint64_t {
     struct stat status{};
     return ::fstat(state->fd.get(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
   });
+  if (!bytes) return state_->noted(bytes.error());
+  return bytes;
 }
 
 Result<std::size_t> AnsweredFile::readSome(std::uint64_t offset, std::span<std::uint8_t> out) const {
@@ -119,8 +130,8 @@ Result<std::size_t> AnsweredFile::readSome(std::uint64_t offset, std::span<std::
   const std::size_t most = std::min(out.size(), kMostAtOnce);
   const auto part =
       answerOf(state_->path, [state = state_, offset, most] { return readNow(state->fd.get(), offset, most); });
-  if (!part) return std::unexpected(part.error());
-  if (part->error != 0) return fail(ErrorCode::Io, kFailed, part->error);
+  if (!part) return state_->noted(part.error());
+  if (part->error != 0) return state_->noted({ErrorCode::Io, part->error, kFailed});
   std::ranges::copy(part->bytes, out.begin());
   return part->bytes.size();
 }
@@ -134,6 +145,13 @@ Result<std::size_t> AnsweredFile::read(std::uint64_t offset, std::span<std::uint
     done += *got;
   }
   return done;
+}
+
+std::optional<Error> AnsweredFile::failure() const {
+  const std::scoped_lock lock(state_->mutex);
+  auto error = state_->first_error;
+  if (error && error->code == ErrorCode::Io) error->code = ErrorCode::Lost;
+  return error;
 }
 
 }  // namespace relievo

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -29,6 +30,9 @@ class AnsweredFile {
   [[nodiscard]] Result<std::size_t> readSome(std::uint64_t offset, std::span<std::uint8_t> out) const;
   // Reads until `out` is full or the file ends.
   [[nodiscard]] Result<std::size_t> read(std::uint64_t offset, std::span<std::uint8_t> out) const;
+  // The first error of these calls, if there was one: what ends a film that is read from the file. Lost if the disk
+  // failed.
+  [[nodiscard]] std::optional<Error> failure() const;
   void close() noexcept { state_.reset(); }
 
  private:

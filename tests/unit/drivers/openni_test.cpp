@@ -10,6 +10,7 @@
 
 #include "drivers/openni/depth_codec.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 #include "tests/support/film/recording/oni_writer.h"
 #include "tests/support/film/recording/recorded_frames.h"
 
@@ -240,6 +241,13 @@ TEST_F(OpenniSource, ADamagedPictureIsLeftOut) {
   ASSERT_EQ(frames.size(), 2u);
   EXPECT_EQ(frames[1].pts, MediaTime(2ms));
   EXPECT_EQ(sample(frames[1], 5, 5), codeAtSample(5, 5, 2));
+}
+
+TEST_F(OpenniSource, IsLostWhenTheDiskFails) {
+  OniWriter oni;
+  const auto depth = oni.add({.cols = kCols, .rows = kRows});
+  for (int i = 0; i < 3; ++i) oni.write(depth, static_cast<std::uint64_t>(i) * 1000, packed("16zT", i));
+  EXPECT_EQ(test::endOnFailingDisk(*open(oni.finish())), ErrorCode::Lost);
 }
 
 // A table that points elsewhere is not believed: the recording is scanned.

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "drivers/rosbag/rosbag.h"
+#include "tests/support/film/failing_disk.h"
 #include "tests/support/film/recording/bag_writer.h"
 #include "tests/support/film/recording/recorded_frames.h"
 #include "tests/unit/drivers/rosbag_films.h"
@@ -109,6 +110,11 @@ TEST_P(RosbagVariants, CutOffAnywhereItPlaysWhatIsWhole) {
     before = pictures;
   }
   EXPECT_EQ(before, static_cast<std::size_t>(2 * kPictures));
+}
+
+TEST_P(RosbagVariants, IsLostWhenTheDiskFails) {
+  const auto source = open(rosBag(GetParam().compression, GetParam().indexed));
+  EXPECT_EQ(endOnFailingDisk(*source), ErrorCode::Lost);
 }
 
 TEST_F(RosbagSource, TakesBigEndianAndPaddedRows) {

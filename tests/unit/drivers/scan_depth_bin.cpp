@@ -11,6 +11,7 @@
 #include "app/media/pair_reader.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 
 namespace relievo {
 namespace {
@@ -115,6 +116,21 @@ TEST_F(DepthBins, AreReadInEachCodingAndFromEachPicture) {
     EXPECT_EQ(timesOf(path), (std::vector<long>{0, 17, 33, 50, 67}));
     EXPECT_EQ(timesOf(path, MediaTime(std::chrono::milliseconds(50))), (std::vector<long>{50, 67}));
     EXPECT_EQ(timesOf(path, MediaTime{}), (std::vector<long>{0, 17, 33, 50, 67})) << "back";
+  }
+}
+
+TEST_F(DepthBins, AreLostWhenTheDiskFails) {
+  std::string all, packed;
+  for (int i = 0; i < kFrames; ++i) {
+    const std::string by_lz4 = lz4(samples(i, false));
+    packed += number(static_cast<std::uint32_t>(by_lz4.size())) + by_lz4;
+    all += samples(i, true);
+  }
+  for (const std::string& bytes : {packed, stored(all)}) {
+    const std::string path = save(bytes);
+    const auto source = drivers::makeMediaSource(path);
+    ASSERT_TRUE(source->open(path));
+    EXPECT_EQ(test::endOnFailingDisk(*source), ErrorCode::Lost);
   }
 }
 

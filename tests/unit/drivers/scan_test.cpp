@@ -12,6 +12,7 @@
 #include "app/media/pair_reader.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 
 namespace relievo {
 namespace {
@@ -144,6 +145,15 @@ TEST_F(Scans, OneThatWasCutOffEndsWithItsLastWholeFrame) {
   const std::string whole = sens({});
   EXPECT_THAT(timesOf(save("a.sens", whole.substr(0, whole.size() - 100))), testing::SizeIs(kFrames - 1));
   EXPECT_THAT(info_.notes, Contains(HasSubstr("cut off")));
+}
+
+TEST_F(Scans, AreLostWhenTheDiskFails) {
+  for (const std::string& path : {save("a.sens", sens({})), save("a.klg", klg(false))}) {
+    const auto source = drivers::makeMediaSource(path);
+    ASSERT_TRUE(source->open(path));
+    EXPECT_EQ(test::endOnFailingDisk(*source), ErrorCode::Lost) << path;
+    EXPECT_EQ(source->missedPictures(), 0u);
+  }
 }
 
 TEST_F(Scans, WhatIsNoneIsToldInOneLine) {

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 #include "tests/support/film/float_tiff.h"
 #include "tests/unit/drivers/decoded_film.h"
 
@@ -91,6 +92,15 @@ TEST(TiffPages, WithHighBytesFirstComeAsTheyAre) {
   const DecodedFilm cut = decodeFilm(folder / "cut.tif");
   EXPECT_EQ(cut.frames.size(), 2u);
   EXPECT_EQ(cut.missed, 1u);
+}
+
+TEST(TiffPages, AreLostWhenTheDiskFails) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder / "p.tif";
+  std::ofstream(path, std::ios::binary) << swappedPages({700, 1234, 40000});
+  const auto source = drivers::makeMediaSource(path);
+  ASSERT_TRUE(source->open(path));
+  EXPECT_EQ(test::endOnFailingDisk(*source), ErrorCode::Lost);
 }
 
 TEST(TiffPages, ThatFollowThemselvesEnd) {
