@@ -107,7 +107,10 @@ Result<void> Picture::drawAndPresent(const FingerMarks& fingers) {
   fallBack(*surface);
   display_.setViews(sceneViews(stereo_, volume_, width_, height_));
   if (display_.capabilities().gles) {
-    if (auto drawn = draw(*surface, fingers); !drawn) return drawn;
+    if (auto drawn = draw(*surface, fingers); !drawn) {
+      static_cast<void>(display_.present());  // the frame that was begun ends, so that the display can be used again
+      return drawn;
+    }
   }
   const auto presented = display_.present();
   if (!presented) return std::unexpected(presented.error());

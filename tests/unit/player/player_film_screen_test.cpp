@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/egl/egl.h"
 #include "drivers/mock/mock.h"
 #include "platform/log.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo {
 namespace {
@@ -290,6 +292,22 @@ TEST_F(FilmScreenTest, AWindowThatTheViewerClosesIsNoFault) {
   ASSERT_FALSE(attended);
   EXPECT_EQ(attended.error().code, ErrorCode::Cancelled);
   EXPECT_TRUE(journal_.written().faults.empty());
+}
+
+TEST_F(FilmScreenTest, APictureThatCannotBeDrawnIsRefusedAndTheNextOneIsShown) {
+  display_ = makeOffscreenDisplay({}, clock_);
+  FilmScreen screen(*display_, {.width = 16, .height = 16}, stereo_, osd_, clock_, journal_, files_);
+  if (const auto opened = screen.open(); !opened) GTEST_SKIP() << opened.error().message;
+  const auto shown = [&](int bits) {
+    const Frame picture = test::makeGrayFrame(4, 4, bits, MediaTime{}, [](int, int) { return 1; });
+    return screen.show({.color = picture}, {}, {}, {}, clock_.now());
+  };
+  const auto refused = shown(7);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
+  const auto attended = screen.attend(clock_.now());
+  EXPECT_TRUE(attended) << attended.error().message;
+  EXPECT_TRUE(shown(8));
 }
 
 }  // namespace
