@@ -56,6 +56,7 @@ void Player::stepOn(MonotonicTime now) {
 }
 
 void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
+  if (why == PlayerEvent::Seek && film_.isStill()) return;  // a photo has no other place
   if (!apply(why)) return;
   target = std::max(target, MediaTime{});
   // Picture and surface stay until the new picture comes, so that both agree.

@@ -316,6 +316,17 @@ TEST_F(PlayerScenario, APhotoStandsAndStaysTouchableUntilItIsLeft) {
   EXPECT_EQ(bench_.faults("depth delayed"), 0u);
 }
 
+TEST_F(PlayerScenario, ASeekInAPhotoLeavesItAsItIs) {
+  bench_.sources["film"] = PlayerBench::film(1);
+  bench_.press(1.0, KEY_RIGHT);
+  bench_.press(2.0, KEY_COMMA);
+  bench_.press(10.0, KEY_STOP);
+  bench_.config.duration = std::chrono::seconds(30);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing paused idle") << "a step back stands";
+  EXPECT_THAT(bench_.report.seeks, IsEmpty());
+}
+
 TEST_F(PlayerScenario, InAListAPhotoGivesWayToTheNextFilm) {
   bench_.config.source.url = "list.m3u";
   bench_.texts["list.m3u"] = "photo\nother\n";
