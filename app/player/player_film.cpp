@@ -164,10 +164,11 @@ void Player::announce(const DisplayVolume& volume) {
   screen_.announce({facts().title, static_cast<int>(std::lround(height * volume.width_mm / volume.height_mm)), height});
 }
 
+// Without a film, and while one is opened, sought or waited for, the screen stands: only what is over it changes.
 void Player::followClock(MonotonicTime now) {
-  if (state_ == PlayerState::Idle || state_ == PlayerState::Browsing)
-    return redraw(touch_.marks(), MonotonicTime::max(), now);
-  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;
+  if (state_ == PlayerState::Fault) return;
+  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused)
+    return redraw(marks(), MonotonicTime::max(), now);
   const std::size_t pictures = film_.advance(now);
   feedTouch();
   const bool shows = pictures > 0 && film_.hasNewPicture();

@@ -241,7 +241,7 @@ void FilmPlayback::noteShown() {
 
 MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
-  if (!sample || sample->rate <= 0) return MonotonicTime::max();
+  if (!sample || sample->rate <= 0 || starved_) return MonotonicTime::max();
   if (isLive() && head_.ahead().empty()) return std::max(pace_.next(), now);
   if (head_.ahead().empty()) return now + period();
   return sample->when(head_.ahead().front().color.pts - (isLive() ? kMostBehind : Duration(0)));

@@ -127,7 +127,7 @@ class FilmPlayback {
   // The depth of the coming pictures, for subtitles in front of it.
   [[nodiscard]] DepthComing coming() const;
   [[nodiscard]] std::optional<ClockSample> clock() const noexcept { return clock_.sample(); }
-  // When the next picture is due; MonotonicTime::max() while the film is paused.
+  // When the next picture is due; MonotonicTime::max() while the film is paused or waits for it.
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;
   // The playing position; nullopt before the first picture.
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;

@@ -127,8 +127,12 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     renewed = true;
   }
   if (!due_.uploaded && !due_.pair.color.empty()) {
-    if (auto set = renderer_->setFrame(due_.pair.color, due_.pair.depth, calibration_, volume_, due_.pair.right); !set)
+    if (std::exchange(cut_, false)) renderer_->cut();
+    auto set = renderer_->setFrame(due_.pair.color, due_.pair.depth, calibration_, volume_, due_.pair.right);
+    if (!set) {
+      due_ = {};  // not tried again: the picture before stays
       return set;
+    }
     due_.uploaded = true;
   }
   if (due_.uploaded && std::exchange(rehearse_, false)) {
@@ -140,7 +144,6 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
   if (subtitles_.draw(frame, due_.pair.color.pts, room) || renewed) {
     renderer_->setSubtitles(frame, subtitles_.pictures());
   }
-  if (std::exchange(cut_, false)) renderer_->cut();
   renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());

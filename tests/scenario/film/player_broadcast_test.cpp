@@ -108,6 +108,29 @@ TEST_F(PlayerScenario, WhileABroadcastIsAwayThePictureStandsAndTheForceFades) {
   EXPECT_LE(bench_.report.haptic.max_scene_slew_n_per_s, 50.0 + 1e-6);
 }
 
+TEST_F(PlayerScenario, WhileAFilmWaitsForItsSourceAKeyIsAnsweredOnTheScreen) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  bench_.sources["film"].remote = true;
+  bench_.sources["film"].lose_after_packets = 500;  // 10 s of both tracks
+  MockMediaProfile away = bench_.sources["film"];
+  away.fail_open = ErrorCode::Io;
+  bench_.found_again = {away};
+  std::vector<double> shown_s;
+  bench_.display.shown = [&] { shown_s.push_back(toSeconds(bench_.clock.now().time_since_epoch())); };
+  const auto isShownAt = [&](double from_s) {
+    return std::ranges::any_of(shown_s, [&](double at_s) { return at_s >= from_s && at_s < from_s + 0.1; });
+  };
+  bench_.press(15.0, KEY_VOLUMEUP);
+  bench_.press(20.0, KEY_LEFT);  // a seek that waits
+  bench_.press(24.0, KEY_VOLUMEUP);
+  bench_.press(30.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing buffering seeking buffering idle");
+  EXPECT_TRUE(isShownAt(15));
+  EXPECT_FALSE(isShownAt(19)) << "nothing changes";
+  EXPECT_TRUE(isShownAt(24));
+}
+
 TEST_F(PlayerScenario, ABroadcastThatStaysAwayStopsTheFilmWithItsReason) {
   bench_.sources["film"] = broadcast(100);
   bench_.sources["film"].lose_after_packets = 80;

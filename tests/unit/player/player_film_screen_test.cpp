@@ -307,6 +307,8 @@ TEST_F(FilmScreenTest, APictureThatCannotBeDrawnIsRefusedAndTheNextOneIsShown) {
   EXPECT_EQ(refused.error().code, ErrorCode::Unsupported);
   const auto attended = screen.attend(clock_.now());
   EXPECT_TRUE(attended) << attended.error().message;
+  screen.obey({.verb = PlayerVerb::SwapEyes, .value = 0, .word = ""});
+  EXPECT_TRUE(screen.redraw({}, MonotonicTime::max(), clock_.now())) << "it is tried once";
   EXPECT_TRUE(shown(8));
 }
 
