@@ -15,7 +15,6 @@
 #include "hal/media/media_names.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/answered_place.h"
-#include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 #include "platform/print.h"
 #include "platform/told_count.h"
@@ -123,9 +122,7 @@ class PicturesSource final : public MediaSource {
     const auto size =
         file ? sizeOf(path, *file) : Result<std::uint64_t>(0);  // what describes it says why it cannot be opened
     if (!size) return std::unexpected(size.error());
-    const auto described =
-        answerOf(path, [describe = describe_, path] { return std::make_shared<Result<StreamInfo>>(describe(path)); });
-    return described ? **described : std::unexpected(described.error());
+    return describe_(path);
   }
 
   // Describes the stream by its first picture that can be read.
