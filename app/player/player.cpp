@@ -83,7 +83,7 @@ void Player::failDrawing(const Error& error) {
 
 Outcome<void> Player::run(const std::atomic<bool>& stop) {
   journal_.begin();
-  boot();
+  boot(stop);
   while (alive()) {
     const MonotonicTime now = parts_.clock.now();
     const bool time_is_up = config_.duration && now - journal_.began() >= *config_.duration;
@@ -102,8 +102,8 @@ bool Player::alive() const noexcept {
   return state_ != PlayerState::Idle || config_.stays;
 }
 
-void Player::boot() {
-  if (auto opened = screen_.open(); !opened) return failDisplay(opened.error());
+void Player::boot(const std::atomic<bool>& stop) {
+  if (auto opened = screen_.open(stop); !opened) return failDisplay(opened.error());
   if (parts_.remote != nullptr) {
     if (auto heard = parts_.remote->open(); !heard) {
       journal_.note(std::string("remote: ") + heard.error().message, "the film plays without one");

@@ -106,7 +106,7 @@ class Player {
   void failFilm() { failFilm(film_.failure().thing, film_.failure().error); }
   void failDisplay(const Error& error);
   void failDrawing(const Error& error);
-  void boot();
+  void boot(const std::atomic<bool>& stop);
   void step(MonotonicTime now);
   [[nodiscard]] bool alive() const noexcept;
   [[nodiscard]] MonotonicTime nextWake(MonotonicTime now) const;

@@ -62,7 +62,9 @@ class Stage {
   [[nodiscard]] Image show(const Scene& scene);
   // Draws the last scene again.
   [[nodiscard]] Image again();
-  [[nodiscard]] bool rehearse() { return renderer_->rehearse(surface_).has_value(); }
+  [[nodiscard]] bool rehearse(const std::atomic<bool>& stop = false) {
+    return renderer_->rehearse(surface_, stop).has_value();
+  }
   [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
 
  private:

@@ -58,6 +58,15 @@ TEST(RenderReduced, ARehearsalFindsTheSizeThatHoldsAtOnce) {
   EXPECT_EQ(stage.renderer().statistics().size, 0.5);
 }
 
+// A drawing of 4K takes a software driver a tenth of a second, a rehearsal two.
+TEST(RenderReduced, ARehearsalEndsWhenTheProgramShall) {
+  STAGE_OR_SKIP(stage, kWidth, kHeight);
+  ASSERT_TRUE(stage.tryShow(bands(StereoLayout::SideBySide)));
+  stage.renderer().setFrameBudget(Duration(1));
+  EXPECT_TRUE(stage.rehearse(true));
+  EXPECT_EQ(stage.renderer().statistics().size, 1.0) << "it went on";
+}
+
 INSTANTIATE_TEST_SUITE_P(Layouts, RenderReduced,
                          testing::Values(StereoLayout::Mono, StereoLayout::SideBySide, StereoLayout::Rows));
 

@@ -31,8 +31,8 @@ bool movedVisibly(const FingerMarks& a, const FingerMarks& b) noexcept {
 
 }  // namespace
 
-Result<void> FilmScreen::open() {
-  auto opened = picture_.open();
+Result<void> FilmScreen::open(const std::atomic<bool>& stop) {
+  auto opened = picture_.open(stop);
   if (const std::string words = picture_.description(); opened && !words.empty()) {
     log(LogLevel::Info, "render", "%s", words.c_str());
   }

@@ -2,6 +2,7 @@
 // The film on the screen: draws pictures, redraws them for the fingers or the text, and counts those shown and dropped.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <future>
@@ -34,8 +35,8 @@ class FilmScreen {
              Journal& journal, FileWriter& files) noexcept
       : picture_(display, config, stereo), osd_(osd), clock_(clock), journal_(journal), files_(files) {}
 
-  // A missing screen (NotFound) is noted in the journal and is no failure.
-  [[nodiscard]] Result<void> open();
+  // A missing screen (NotFound) is noted in the journal and is no failure. `stop`: see Picture.
+  [[nodiscard]] Result<void> open(const std::atomic<bool>& stop);
   void close() noexcept { picture_.close(); }
   // Once a round. Cancelled if the viewer has closed the window.
   [[nodiscard]] Result<void> attend(MonotonicTime now);

@@ -54,7 +54,7 @@ void Picture::setScene(const DepthCalibration& calibration, const DisplayVolume&
   volume_ = volume;
   frame_budget_ = frame_budget;
   if (renderer_ != nullptr) renderer_->setFrameBudget(frame_budget);
-  rehearse_ = true;
+  rehearsal_.due = true;
 }
 
 void Picture::announce(const AnnouncedFilm& film) {
@@ -135,8 +135,8 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     }
     due_.uploaded = true;
   }
-  if (due_.uploaded && std::exchange(rehearse_, false)) {
-    if (auto rehearsed = renderer_->rehearse(surface); !rehearsed) return rehearsed;
+  if (due_.uploaded && std::exchange(rehearsal_.due, false)) {
+    if (auto rehearsed = renderer_->rehearse(surface, *rehearsal_.stop); !rehearsed) return rehearsed;
     words_.forget();
   }
   const TextFrame frame = textFrame();

@@ -2,6 +2,7 @@
 // Puts pairs on the screen: the display, its renderer, and the loss and return of the screen.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,7 +40,11 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  [[nodiscard]] Result<void> open() { return display_.open(config_); }
+  // `stop`, which must outlive this, asks for the end: the preparations for a first picture are cut short.
+  [[nodiscard]] Result<void> open(const std::atomic<bool>& stop) {
+    rehearsal_.stop = &stop;
+    return display_.open(config_);
+  }
   void close() noexcept;
 
   // Call when the film is open, before its first picture. `frame_budget`: how long drawing may take.
@@ -140,7 +145,11 @@ class Picture {
   SubtitleWords subtitles_;
   ReliefAhead ahead_;
   bool cut_ = false, capture_due_ = false;
-  bool rehearse_ = false;  // before the first picture of a film
+  struct Rehearsal {
+    bool due = false;  // before the first picture of a film
+    const std::atomic<bool>* stop = nullptr;
+  };
+  Rehearsal rehearsal_;
   std::optional<Capture> captured_;
   MonotonicTime next_retry_;
   int width_ = 0, height_ = 0;

@@ -3,6 +3,7 @@
 #include "app/render/gl/scene_renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -150,16 +151,20 @@ Result<void> SceneRenderer::draw(const DisplaySurface& surface, const FingerMark
   return glOutcome();
 }
 
-Result<void> SceneRenderer::rehearse(const DisplaySurface& surface) {
+Result<void> SceneRenderer::rehearse(const DisplaySurface& surface, const std::atomic<bool>& stop) {
   Impl& impl = *impl_;
   if (impl.depth.empty()) return {};
   const FingerMarks finger{FingerMark{{0, 0, impl.volume.depth_mm}, {0, 0, 1}, true}};
   impl.text.setUnseen({.width = surface.width, .height = surface.height});
   for (bool changed = true; changed;) {
-    if (auto compiled = impl.timeOf(surface, finger); !compiled) return std::unexpected(compiled.error());
-    const auto took = impl.timeOf(surface, finger), again = impl.timeOf(surface, finger);
-    if (!took || !again) return std::unexpected((took ? again : took).error());
-    changed = impl.level.rehearsed(std::min(*took, *again));  // other work may have held one up
+    std::array<Duration, 3> took;  // the first compiles
+    for (Duration& each : took) {
+      if (stop) return {};
+      const auto drawn = impl.timeOf(surface, finger);
+      if (!drawn) return std::unexpected(drawn.error());
+      each = *drawn;
+    }
+    changed = impl.level.rehearsed(std::min(took[1], took[2]));  // other work may have held one up
   }
   impl.text.set({}, {});
   return glOutcome();

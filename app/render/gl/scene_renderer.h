@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -80,8 +81,9 @@ class SceneRenderer {
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers,
                                   std::optional<Duration> late = {});
   // Draws the last pair with a finger and text until all programs are compiled and the relief is as coarse and small as
-  // the frame budget needs, so that nothing of that happens while the film plays. Then call `setText` and `draw`.
-  [[nodiscard]] Result<void> rehearse(const DisplaySurface& surface);
+  // the frame budget needs, so that nothing of that happens while the film plays. Ends soon after `stop` is set. Then
+  // call `setText` and `draw`.
+  [[nodiscard]] Result<void> rehearse(const DisplaySurface& surface, const std::atomic<bool>& stop);
   // Reads back what `draw` has drawn into `surface`, before it is presented: rows from the top, three bytes a pixel.
   [[nodiscard]] static std::vector<std::uint8_t> read(const DisplaySurface& surface);
   [[nodiscard]] RenderStatistics statistics() const noexcept;

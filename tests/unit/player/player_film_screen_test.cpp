@@ -26,7 +26,7 @@ class FilmScreenTest : public testing::Test {
     };
     display_ = makeMockDisplay(profile_, clock_, cable_);
     screen_.emplace(*display_, config_, stereo_, osd_, clock_, journal_, files_);
-    ASSERT_TRUE(screen_->open());
+    ASSERT_TRUE(screen_->open(stop_));
   }
   bool show() { return screen_->show({}, {}, {}, {}, clock_.now()).value_or(false); }
   // How many pictures are presented when it is asked to draw again, `later` than before.
@@ -49,6 +49,7 @@ class FilmScreenTest : public testing::Test {
   }
 
   ManualClock clock_;
+  std::atomic<bool> stop_{false};
   Journal journal_{clock_};
   FileWriter files_{FileWriter::Where::AtOnce};
   MockDisplayProfile profile_;
@@ -90,7 +91,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     Journal journal(clock_);
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
                       journal, files_);
-    ASSERT_TRUE(screen.open());
+    ASSERT_TRUE(screen.open(stop_));
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, {}, {}, clock_.now()));
     PlayReport report;
     screen.describe(report);
