@@ -241,9 +241,9 @@ std::string pictureFigures(const PlayReport& r) {
 std::string touchText(const PlayReport& r, const HapticSummary& h) {
   if (h.ticks == 0) return "touch   none\n";
   if (!r.film.has_depth) return "touch   nothing to feel: the film has no depth\n";
-  return print("touch   %s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks late\n",
-               h.device.c_str(), 100 * share(h.contact_ticks, h.ticks), h.max_force_n,
-               static_cast<unsigned long long>(h.overruns), static_cast<unsigned long long>(h.ticks));
+  const unsigned long long missed = h.overruns, all = h.ticks + h.overruns;
+  return print("touch   %s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks missed\n",
+               h.device.c_str(), 100 * share(h.contact_ticks, h.ticks), h.max_force_n, missed, all);
 }
 
 std::string touchFigures(const PlayReport& r, const HapticSummary& h) {

@@ -39,12 +39,12 @@ std::string statusText(const ScreenFacts& facts, const PlayReport& report, const
   if (facts.rate != 1) text += print("  %gx", facts.rate);
   if (facts.films > 1) text += print("  film %zu of %zu", facts.film, facts.films);
   text += print("  dropped %llu", static_cast<unsigned long long>(report.frames_dropped));
-  const auto late = [](const HapticSummary& haptic) { return static_cast<unsigned long long>(haptic.overruns); };
+  const auto missed = [](const HapticSummary& haptic) { return static_cast<unsigned long long>(haptic.overruns); };
   if (const auto& second = report.second_finger) {
-    text += print("  force %.2f N, %.2f N  late ticks %llu, %llu", forces_n[0], forces_n[1], late(report.haptic),
-                  late(second->haptic));
+    text += print("  force %.2f N, %.2f N  missed ticks %llu, %llu", forces_n[0], forces_n[1], missed(report.haptic),
+                  missed(second->haptic));
   } else if (report.haptic.ticks > 0) {
-    text += print("  force %.2f N  late ticks %llu", forces_n[0], late(report.haptic));
+    text += print("  force %.2f N  missed ticks %llu", forces_n[0], missed(report.haptic));
   }
   // Parts that do not fit are left out, the last first; a first part that does not fit is cut.
   while (text.size() >= columns && text.rfind("  ") != std::string::npos) text.resize(text.rfind("  "));

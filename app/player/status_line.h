@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// "playing 0:12 / 1:30 (13 %)  Volume 95 %  2x  dropped 0  force 1.25 N  late ticks 0", at most `columns` long.
+// "playing 0:12 / 1:30 (13 %)  Volume 95 %  2x  dropped 0  force 1.25 N  missed ticks 0", at most `columns` long.
 // `notice`: what a key has changed, if that was a moment ago.
 [[nodiscard]] std::string statusText(const ScreenFacts& facts, const PlayReport& report, const FingerForces& forces_n,
                                      const std::string& notice, std::size_t columns);

@@ -42,7 +42,7 @@ std::string listOf(const std::vector<FilmTrack>& tracks, std::optional<std::size
 
 void addTouch(ScreenRows& rows, const HapticSummary& haptic, const std::string& which, double force_n, bool has_depth) {
   if (haptic.ticks == 0) return;
-  rows.emplace_back("tick" + which, print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu late", haptic.rate_hz,
+  rows.emplace_back("tick" + which, print("%.0f Hz, %.1f us, 99.9 %% under %.1f us, %llu missed", haptic.rate_hz,
                                           static_cast<double>(haptic.update.p50) * 1e-3,
                                           static_cast<double>(haptic.update.p999) * 1e-3, count(haptic.overruns)));
   rows.emplace_back("force" + which, print("%.2f N, at most %.2f N", force_n, haptic.max_force_n));

@@ -117,6 +117,7 @@ TEST(Report, TellsPeopleTheSameFigures) {
   const std::string text = toText(r);
   EXPECT_THAT(text, HasSubstr("58 frames shown, 2 dropped"));
   EXPECT_THAT(text, HasSubstr("25 % of the time in contact"));
+  EXPECT_THAT(text, HasSubstr("3 of 2403 ticks missed")) << "the 2400 that ran and those between them";
   EXPECT_THAT(text, testing::Not(HasSubstr("p99"))) << "a developer's";
   EXPECT_THAT(toText(r, true), HasSubstr("p99 2.0 us"));
 }

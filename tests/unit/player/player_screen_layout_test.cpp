@@ -107,7 +107,7 @@ TEST_P(ScreenLayout, AFilmsWordsDoNotMeet) {
                           {"tracks", "sound eng [deu] jpn fra, subtitles eng deu [ara] jpn fra"},
                           {"decoder", "ffmpeg"},
                           {"drawing", "12.3 ms, 12345 triangles, error 0.50 px"},
-                          {"tick", "1000 Hz, 12.3 us, 99.9 % under 45.6 us, 0 late"},
+                          {"tick", "1000 Hz, 12.3 us, 99.9 % under 45.6 us, 0 missed"},
                           {"force", "1.23 N, at most 4.56 N"}};
     expectApart(content);
   }

@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-TEST(StatusText, TellsTimeSpeedDropsForceAndLateTicks) {
+TEST(StatusText, TellsTimeSpeedDropsForceAndMissedTicks) {
   ScreenFacts facts{.title = "film.mkv", .position_s = 12.7, .duration_s = 90, .state = PlayerState::Playing};
   PlayReport report;
   report.frames_dropped = 3;
@@ -20,13 +20,13 @@ TEST(StatusText, TellsTimeSpeedDropsForceAndLateTicks) {
   facts.films = 4;
   facts.film = 2;
   EXPECT_EQ(statusText(facts, report, {1.254}, "", 100),
-            "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N  late ticks 2");
+            "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N  missed ticks 2");
   EXPECT_EQ(statusText(facts, report, {1.254}, "", 20), "playing 0:12 / 1:30") << "it does not wrap";
   EXPECT_EQ(statusText(facts, report, {1.254}, "", 60), "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3")
       << "no part is cut";
   report.second_finger.emplace().haptic.overruns = 1;
   EXPECT_EQ(statusText(facts, report, {1.254, 0.5}, "", 120),
-            "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N, 0.50 N  late ticks 2, 1");
+            "playing 0:12 / 1:30 (14 %)  0.5x  film 2 of 4  dropped 3  force 1.25 N, 0.50 N  missed ticks 2, 1");
   facts.position_s = 90.9;
   EXPECT_EQ(statusText(facts, report, {}, "", 30), "playing 1:30 / 1:30 (100 %)") << "the last picture of a loop";
   facts.position_s = 12.7;
