@@ -88,9 +88,8 @@ void copyTags(AVDictionary** to, const AVDictionary* from) {
 }
 
 // Of several programmes only the picture's own.
-bool isOfProgramme(AVFormatContext& file, int stream) {
-  const int picture = av_find_best_stream(&file, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  const AVProgram* const programme = picture < 0 ? nullptr : av_find_program_from_stream(&file, nullptr, picture);
+bool isOfProgramme(AVFormatContext& file, int picture, int stream) {
+  const AVProgram* const programme = av_find_program_from_stream(&file, nullptr, picture);
   if (programme == nullptr) return true;
   const std::span<const unsigned> own(programme->stream_index, programme->nb_stream_indexes);
   return std::ranges::find(own, static_cast<unsigned>(stream)) != own.end();
@@ -114,7 +113,7 @@ KeptTracks::Read KeptTracks::readNow(AVFormatContext& file) {
   return read;
 }
 
-Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Duration start,
+Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, int picture, Duration start,
                                                      const KeptWishes& wishes) {
   const auto opened = answerOf(file, [file] { return openNow(file); });
   if (!opened) return std::unexpected(opened.error());
@@ -124,6 +123,7 @@ Result<std::unique_ptr<KeptTracks>> KeptTracks::open(const std::string& file, Du
   auto tracks = std::make_unique<KeptTracks>();
   tracks->path_ = file;
   tracks->file_ = opened->file;
+  tracks->picture_ = picture;
   tracks->start_ = start;
   if (tracks->jumps()) tracks->times_.begin(kLongestGap);
   tracks->wishes_ = wishes;
@@ -149,9 +149,10 @@ Result<void> KeptTracks::addTo(FilmPlace& film, FilmKind kind) {
   kind_ = kind;
   for (unsigned i = 0; i < file_->nb_streams; ++i) {
     AVStream& stream = *file_->streams[i];
-    stream.discard =
-        jumps() ? AVDISCARD_DEFAULT : AVDISCARD_ALL;  // jumps can only be detected over all streams together
-    if (!isWished(stream) || !isOfProgramme(*file_, stream.index)) continue;
+    const bool own = isOfProgramme(*file_, picture_, stream.index);
+    // Jumps can only be detected over all streams of the programme together.
+    stream.discard = jumps() && own ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
+    if (!own || !isWished(stream)) continue;
     if (auto added = addStream(stream); !added) return added;
     if (copies_.contains(stream.index)) stream.discard = AVDISCARD_DEFAULT;
   }
@@ -234,8 +235,10 @@ Result<KeptTracks::PacketPtr> KeptTracks::next() {
       return nullptr;
     }
     PacketPtr packet = std::move(read->packet);
+    // Opening the file has read packets of other programmes too, whose clocks may be hours away.
+    if (packet->size == 0 || file_->streams[packet->stream_index]->discard == AVDISCARD_ALL) continue;
     makeContinuous(*packet);
-    if (packet->size > 0 && copies_.contains(packet->stream_index)) return packet;
+    if (copies_.contains(packet->stream_index)) return packet;
   }
 }
 

@@ -30,9 +30,9 @@ struct KeptWishes {
 // needs another format; what it cannot hold is left out and reported. Use from one thread.
 class KeptTracks {
  public:
-  // `start`: the time of the file that is media time 0. NotFound, Corrupt; Timeout and Cancelled as
-  // platform/files/file_system_answer.h says, also of writing.
-  [[nodiscard]] static Result<std::unique_ptr<KeptTracks>> open(const std::string& file, Duration start,
+  // `picture`: the colour's stream in the file. `start`: the time of the file that is media time 0. NotFound, Corrupt;
+  // Timeout and Cancelled as platform/files/file_system_answer.h says, also of writing.
+  [[nodiscard]] static Result<std::unique_ptr<KeptTracks>> open(const std::string& file, int picture, Duration start,
                                                                 const KeptWishes& wishes);
   // Adds tracks, chapters and titles to the film: after the tracks of its pictures, before its header.
   [[nodiscard]] Result<void> addTo(FilmPlace& film, FilmKind kind);
@@ -84,6 +84,7 @@ class KeptTracks {
 
   std::string path_;
   std::shared_ptr<AVFormatContext> file_;
+  int picture_ = 0;
   Duration start_{0};
   ContinuousTime times_;
   KeptWishes wishes_;

@@ -108,7 +108,7 @@ std::unique_ptr<KeptTracks> Packager::keptTracks() const {
   if (!isRegularFile(source_.url)) return nullptr;
   const std::string ending = endingOf(source_.url);
   if (ending == "sens" || ending == "klg") return nullptr;  // FFmpeg would take a scan's pictures for sound
-  auto kept = KeptTracks::open(source_.url, info_.container_start, output_.keep);
+  auto kept = KeptTracks::open(source_.url, info_.color_stream, info_.container_start, output_.keep);
   if (kept) return std::move(*kept);
   if (info_.sound_tracks + info_.subtitle_tracks == 0) return nullptr;
   log(LogLevel::Warning, source_.url.c_str(), "%s; the film is made without", kept.error().message);

@@ -223,6 +223,22 @@ TEST_F(AuthorKeeps, SoundGoesOnWhereATransportStreamsTimesJump) {
   EXPECT_TRUE(std::ranges::is_sorted(twice));
 }
 
+// The larger picture's, though the other programme has more pictures and an earlier clock.
+TEST_F(AuthorKeeps, OfSeveralProgrammesThePicturesOwnSoundInTime) {
+  const std::string make =
+      "ffmpeg -v error -y -itsoffset 30 -f lavfi -i testsrc=s=128x96:r=25:d=2 -f lavfi -i testsrc2=s=64x48:r=50:d=2"
+      " -itsoffset 30 -f lavfi -i sine=440:d=2 -f lavfi -i sine=880:d=2 -map 0 -map 2 -map 1 -map 3 -c:v libx264"
+      " -c:a aac -metadata:s:a:0 language=eng -metadata:s:a:1 language=jpn"
+      " -program program_num=1:st=0:st=1 -program program_num=2:st=2:st=3 @/two.ts";
+  ASSERT_EQ(std::system(inFolder(make).c_str()), 0);
+  author("--depth @/pictures.mkv -o @/out.mkv", "@/two.ts");
+  EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), ElementsAre("aac|eng"));
+  const std::vector<double> pictures = timesOf(folder_ / "out.mkv", "v:0"), sound = timesOf(folder_ / "out.mkv", "a:0");
+  ASSERT_FALSE(pictures.empty() || sound.empty());
+  EXPECT_NEAR(sound.front(), pictures.front(), 0.1);
+  EXPECT_NEAR(sound.back(), pictures.back(), 0.1);
+}
+
 TEST_F(AuthorKeeps, NothingThatIsNotWished) {
   const std::string said = author("--no-audio --no-subtitles -o @/out.mkv");
   EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), IsEmpty());
