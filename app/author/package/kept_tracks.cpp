@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "app/author/package/held_tracks.h"
 #include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/plain_text.h"
@@ -20,43 +21,6 @@ namespace {
 constexpr AVRational kNanosecond{1, 1'000'000'000};
 constexpr Duration kLongestGap = std::chrono::seconds(10);  // the same as for reading files, see ContinuousTime
 constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for a track"};
-
-// Codecs that common players support in a transport stream or an HLS segment.
-constexpr std::array kInTransport{AV_CODEC_ID_MP1,          AV_CODEC_ID_MP2,
-                                  AV_CODEC_ID_MP3,          AV_CODEC_ID_AAC,
-                                  AV_CODEC_ID_AAC_LATM,     AV_CODEC_ID_AC3,
-                                  AV_CODEC_ID_EAC3,         AV_CODEC_ID_DTS,
-                                  AV_CODEC_ID_TRUEHD,       AV_CODEC_ID_OPUS,
-                                  AV_CODEC_ID_S302M,        AV_CODEC_ID_DVB_SUBTITLE,
-                                  AV_CODEC_ID_DVB_TELETEXT, AV_CODEC_ID_HDMV_PGS_SUBTITLE};
-constexpr std::array kInSegments{AV_CODEC_ID_AAC,  AV_CODEC_ID_AC3,  AV_CODEC_ID_EAC3, AV_CODEC_ID_MP3,
-                                 AV_CODEC_ID_FLAC, AV_CODEC_ID_OPUS, AV_CODEC_ID_ALAC};
-
-bool isTransport(FilmKind kind) noexcept {
-  return kind == FilmKind::TransportStream || kind == FilmKind::Live;
-}
-
-bool isMp4(FilmKind kind) noexcept {
-  return kind == FilmKind::Mp4 || kind == FilmKind::Mov || kind == FilmKind::Hls;
-}
-
-bool canHold(const AVFormatContext& film, FilmKind kind, AVCodecID codec) {
-  if (isTransport(kind)) return std::ranges::find(kInTransport, codec) != kInTransport.end();
-  if (kind == FilmKind::Hls) return std::ranges::find(kInSegments, codec) != kInSegments.end();
-  return avformat_query_codec(film.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
-}
-
-// The text coding of films of this kind; NONE if they have none.
-AVCodecID textOf(FilmKind kind) noexcept {
-  if (kind == FilmKind::Matroska) return AV_CODEC_ID_SUBRIP;
-  return isMp4(kind) && kind != FilmKind::Hls ? AV_CODEC_ID_MOV_TEXT : AV_CODEC_ID_NONE;
-}
-
-const char* nameOf(FilmKind kind) noexcept {
-  if (isTransport(kind)) return "a transport stream";
-  if (kind == FilmKind::Hls) return "an HLS film";
-  return kind == FilmKind::Matroska ? "Matroska" : "MP4";
-}
 
 const char* tag(const AVDictionary* tags, const char* key) noexcept {
   const AVDictionaryEntry* const found = av_dict_get(tags, key, nullptr, 0);
@@ -262,8 +226,10 @@ Result<void> KeptTracks::writeUntil(MediaTime time) {
   while (!copies_.empty()) {
     auto packet = next();
     if (!packet) return std::unexpected(packet.error());
+    const MediaTime now = *packet ? begins(**packet) : MediaTime::max();
+    if (auto written = writeTextsBefore(now); !written) return written;
     if (!*packet) return {};
-    if (begins(**packet) >= time) {
+    if (now >= time) {
       waiting_ = std::move(*packet);
       return {};
     }
@@ -274,12 +240,27 @@ Result<void> KeptTracks::writeUntil(MediaTime time) {
 
 Result<void> KeptTracks::write(PacketPtr packet) {
   Copy& copy = copies_.at(packet->stream_index);
-  const AVRational base = file_->streams[packet->stream_index]->time_base;
-  if (copy.converter) {
-    const auto converted = copy.converter->convert(*packet);
-    if (!converted) return std::unexpected(converted.error());
-    if (!*converted) return {};
+  if (!copy.converter) return put(std::move(packet));
+  const bool joins = copy.text && begins(*copy.text) == begins(*packet);
+  const auto converted = copy.converter->convert(*packet, joins);
+  if (!converted) return std::unexpected(converted.error());
+  if (!*converted) return {};
+  if (joins) packet->duration = std::max(packet->duration, copy.text->duration);
+  copy.text.swap(packet);
+  return joins || !packet ? Result<void>{} : put(std::move(packet));
+}
+
+Result<void> KeptTracks::writeTextsBefore(MediaTime time) {
+  for (auto& [stream, copy] : copies_) {
+    if (!copy.text || begins(*copy.text) >= time) continue;
+    if (auto written = put(std::move(copy.text)); !written) return written;
   }
+  return {};
+}
+
+Result<void> KeptTracks::put(PacketPtr packet) {
+  Copy& copy = copies_.at(packet->stream_index);
+  const AVRational base = file_->streams[packet->stream_index]->time_base;
   const std::int64_t shift = av_rescale_q(start_.count(), kNanosecond, base);
   if (packet->pts != AV_NOPTS_VALUE) packet->pts -= shift;
   if (packet->dts != AV_NOPTS_VALUE) packet->dts -= shift;

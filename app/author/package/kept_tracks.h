@@ -57,6 +57,7 @@ class KeptTracks {
     AVStream* stream = nullptr;  // of the film
     std::int64_t last_dts = AV_NOPTS_VALUE;
     std::unique_ptr<TextSubtitles> converter;
+    PacketPtr text;  // converted; the next one joins it if it begins at the same time, since MP4 shows one at a time
   };
 
   // Whether the container's times may jump.
@@ -69,6 +70,8 @@ class KeptTracks {
   void makeContinuous(AVPacket& packet);
   [[nodiscard]] MediaTime begins(const AVPacket& packet) const noexcept;
   [[nodiscard]] Result<void> write(PacketPtr packet);
+  [[nodiscard]] Result<void> writeTextsBefore(MediaTime time);
+  [[nodiscard]] Result<void> put(PacketPtr packet);
 
   // Shared with file system calls that have not returned yet and may outlive this object.
   struct Opened {

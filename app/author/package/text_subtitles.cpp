@@ -4,13 +4,42 @@
 
 #include <cerrno>
 #include <cstring>
+#include <span>
+#include <string_view>
 
 namespace relievo {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 16;  // of one event, coded
+constexpr const char* kNewLine = "\\N";
 constexpr Error kNoMemory{ErrorCode::Exhausted, ENOMEM, "out of memory for subtitles"};
 constexpr Error kCannotConvert{ErrorCode::Unsupported, 0, "this FFmpeg cannot convert these subtitles"};
+
+// In the form that FFmpeg's decoders produce, the text of an event follows eight commas.
+std::size_t textAt(std::string_view event) noexcept {
+  std::size_t at = 0;
+  for (int commas = 0; commas < 8; ++commas) at = event.find(',', at) + 1;
+  return at;
+}
+
+std::string textOf(const AVSubtitle& subtitle) {
+  std::string text;
+  for (const AVSubtitleRect* const event : std::span(subtitle.rects, subtitle.num_rects)) {
+    if (event->ass == nullptr) continue;
+    text += (text.empty() ? "" : kNewLine) + std::string(event->ass).substr(textAt(event->ass));
+  }
+  return text;
+}
+
+// Puts lines above the subtitle's own. False: out of memory.
+bool prepend(const std::string& lines, AVSubtitle& subtitle) {
+  if (subtitle.num_rects == 0 || subtitle.rects[0]->ass == nullptr) return true;
+  std::string event = subtitle.rects[0]->ass;
+  event.insert(textAt(event), lines + kNewLine);
+  av_free(subtitle.rects[0]->ass);
+  subtitle.rects[0]->ass = av_strdup(event.c_str());
+  return subtitle.rects[0]->ass != nullptr;
+}
 
 }  // namespace
 
@@ -49,10 +78,15 @@ Result<void> TextSubtitles::describe(AVCodecParameters& parameters) const {
   return {};
 }
 
-Result<bool> TextSubtitles::convert(AVPacket& packet) {
+Result<bool> TextSubtitles::convert(AVPacket& packet, bool joins) {
   AVSubtitle subtitle{};
   int found = 0;
   if (avcodec_decode_subtitle2(reader_.get(), &subtitle, &found, &packet) < 0 || found == 0) return false;
+  if (joins && !prepend(last_, subtitle)) {
+    avsubtitle_free(&subtitle);
+    return std::unexpected(kNoMemory);
+  }
+  last_ = textOf(subtitle);
   const int bytes = avcodec_encode_subtitle(writer_.get(), coded_.data(), static_cast<int>(coded_.size()), &subtitle);
   avsubtitle_free(&subtitle);
   if (bytes <= 0) return false;

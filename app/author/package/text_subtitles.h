@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 extern "C" {
@@ -24,8 +25,9 @@ class TextSubtitles {
                                                                      AVRational time_base, AVCodecID to);
   // The converted stream's parameters.
   [[nodiscard]] Result<void> describe(AVCodecParameters& parameters) const;
-  // Replaces the packet's content; its times stay. False if there is no text in it.
-  [[nodiscard]] Result<bool> convert(AVPacket& packet);
+  // Replaces the packet's content; its times stay. `joins`: by the last packet's text, and its own below that. False if
+  // there is no text in it.
+  [[nodiscard]] Result<bool> convert(AVPacket& packet, bool joins);
 
  private:
   struct Free {
@@ -33,6 +35,7 @@ class TextSubtitles {
   };
   std::unique_ptr<AVCodecContext, Free> reader_, writer_;
   std::vector<std::uint8_t> coded_;
+  std::string last_;  // the last packet's text, with what it joined
 };
 
 }  // namespace relievo

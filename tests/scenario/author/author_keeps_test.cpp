@@ -183,6 +183,29 @@ TEST_F(AuthorKeeps, TextBecomesTheTextOfMp4) {
   EXPECT_EQ(wordsOf(folder_ / "back.mkv", 0), wordsOf(film_, 0));
 }
 
+// As of two who speak at once. MP4 shows one text at a time; a film without sound has no other packets between them.
+TEST_F(AuthorKeeps, TextsThatBeginTogetherAreShownTogether) {
+  std::ofstream(folder_ / "two.srt") << "1\n00:00:00,200 --> 00:00:00,700\n- Who, me?\n\n"
+                                        "2\n00:00:00,200 --> 00:00:00,900\n<i>- Yes, you</i>\n\n"
+                                        "3\n00:00:01,100 --> 00:00:01,700\nLater\n\n"
+                                        "4\n00:00:01,100 --> 00:00:01,500\nLast\n\n";
+  const auto made = [&](const std::string& sound) {
+    const std::string make =
+        "ffmpeg -v error -y -i @/film.mkv -i @/two.srt -map 0:v " + sound + " -map 1 -c copy @/both.mkv";
+    EXPECT_EQ(std::system(inFolder(make).c_str()), 0);
+    author("--force -o @/out.mp4", "@/both.mkv");
+    std::string words = wordsOf(folder_ / "out.mp4", 0);
+    std::erase(words, '\r');
+    return words;
+  };
+  EXPECT_EQ(made("-map 0:a"),
+            "1\n00:00:00,200 --> 00:00:00,900\n- Who, me?\n<i>- Yes, you</i>\n\n"
+            "2\n00:00:01,100 --> 00:00:01,700\nLater\nLast\n\n");
+  const std::string without_sound = made("");
+  EXPECT_THAT(without_sound, HasSubstr("\n- Who, me?\n<i>- Yes, you</i>\n\n2\n"));
+  EXPECT_THAT(without_sound, HasSubstr("\nLater\nLast\n\n"));
+}
+
 TEST_F(AuthorKeeps, SoundInATransportStreamAndSaysWhatItCannotHold) {
   const std::string said = author("-o @/out.ts");
   const std::string out = folder_ / "out.ts";
