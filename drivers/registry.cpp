@@ -136,7 +136,8 @@ Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, C
   if (name.plain("evdev")) return makeEvdevRemote();
   if (name.plain("keys")) return makeTerminalRemote();
   if (name.plain("window")) {
-    auto keys = makeWindowRemote(theWindow());
+    auto pads = makePadRemote([window = theWindow()] { return window->focused.load(); });
+    auto keys = makeJoinedRemote(makeWindowRemote(theWindow()), std::move(pads));
     return terminalIsThere() ? makeJoinedRemote(std::move(keys), makeTerminalRemote()) : std::move(keys);
   }
   if (name.withArgument("script")) {

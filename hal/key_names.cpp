@@ -19,6 +19,7 @@ struct KeyName {
 };
 
 #define RELIEVO_KEY(name) {#name, KEY_##name}
+#define RELIEVO_BUTTON(name) {"BTN_" #name, BTN_##name}
 constexpr KeyName kKeys[] = {
     // Transport.
     RELIEVO_KEY(PLAY),
@@ -104,6 +105,21 @@ constexpr KeyName kKeys[] = {
     RELIEVO_KEY(NUMERIC_9),
     RELIEVO_KEY(NUMERIC_STAR),
     RELIEVO_KEY(NUMERIC_POUND),
+    // A gamepad.
+    RELIEVO_BUTTON(SOUTH),
+    RELIEVO_BUTTON(EAST),
+    RELIEVO_BUTTON(NORTH),
+    RELIEVO_BUTTON(WEST),
+    RELIEVO_BUTTON(TL),
+    RELIEVO_BUTTON(TR),
+    RELIEVO_BUTTON(SELECT),
+    RELIEVO_BUTTON(START),
+    RELIEVO_BUTTON(MODE),
+    RELIEVO_BUTTON(THUMBR),
+    RELIEVO_BUTTON(DPAD_UP),
+    RELIEVO_BUTTON(DPAD_DOWN),
+    RELIEVO_BUTTON(DPAD_LEFT),
+    RELIEVO_BUTTON(DPAD_RIGHT),
     // A keyboard.
     RELIEVO_KEY(0),
     RELIEVO_KEY(1),
@@ -172,6 +188,7 @@ constexpr KeyName kKeys[] = {
     RELIEVO_KEY(F11),
     RELIEVO_KEY(F12),
 };
+#undef RELIEVO_BUTTON
 #undef RELIEVO_KEY
 
 // Compares without regard to case; `upper` is in upper case, like the table above.
@@ -223,6 +240,10 @@ std::string keyName(std::uint16_t code) {
   std::string name((code & kWithCtrl) != 0 ? kCtrl : "");
   if ((code & kWithShift) != 0) name += kShift;
   return name.append(key->name);
+}
+
+bool isPadButton(std::uint16_t code) noexcept {
+  return (code >= BTN_GAMEPAD && code <= BTN_THUMBR) || (code >= BTN_DPAD_UP && code <= BTN_DPAD_RIGHT);
 }
 
 std::string_view nearestKeyName(std::string_view word) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of the keys of remote controls and keyboards, as in linux/input-event-codes.h.
+// Names of the keys of remote controls, keyboards and gamepads, as in linux/input-event-codes.h.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,11 @@ inline constexpr std::uint16_t kWithShift = 0x4000, kWithCtrl = 0x8000;
 // `name`: with or without "KEY_", in upper or lower case; "SHIFT_G", "CTRL_EQUAL". nullopt for an unknown key.
 [[nodiscard]] std::optional<std::uint16_t> keyCode(std::string_view name) noexcept;
 
-// Without "KEY_"; empty for an unknown code.
+// Without "KEY_"; "BTN_SOUTH" of a gamepad; empty for an unknown code.
 [[nodiscard]] std::string keyName(std::uint16_t code);
+
+// True for a button of a gamepad, by Linux's Documentation/input/gamepad.rst.
+[[nodiscard]] bool isPadButton(std::uint16_t code) noexcept;
 
 // The name whose spelling is nearest to `word`, ignoring blanks, '-', '_' and case: FASTFORWARD for "fast forward".
 // Empty if none is near.

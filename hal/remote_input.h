@@ -12,7 +12,7 @@ namespace relievo {
 
 struct KeyEvent {
   enum class Action : std::uint8_t { Press, Repeat, Release };
-  std::uint16_t code = 0;  // KEY_PLAY, KEY_PAUSE, .. of linux/input-event-codes.h
+  std::uint16_t code = 0;  // KEY_PLAY, BTN_SOUTH, .. of linux/input-event-codes.h
   Action action = Action::Press;
   MonotonicTime time;
 };
@@ -29,6 +29,8 @@ class RemoteInput {
   [[nodiscard]] Result<std::optional<KeyEvent>> poll(MonotonicTime now);
   void close() noexcept;
   [[nodiscard]] State state() const noexcept { return state_; }
+  // A gamepad is among its devices now.
+  [[nodiscard]] virtual bool hasPad() const noexcept { return false; }
 
  private:
   virtual Result<void> openRemote() = 0;

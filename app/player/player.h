@@ -120,6 +120,7 @@ class Player {
   void followMouse(MonotonicTime now);
   void obeyKey(const PlayerCommand& command, std::uint16_t code, MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
+  [[nodiscard]] std::string helpKey() const;
   [[nodiscard]] ScreenRows keyRows() const;
 
   // player_facts.cpp: what is told
@@ -189,6 +190,7 @@ class Player {
   FilmScreen screen_;
   SeekTimes seeks_;
   KeyReader keys_;
+  bool has_pad_ = false;             // the remote has a gamepad
   std::set<std::uint16_t> unbound_;  // keys without a meaning that were reported
   Loudness loudness_;
   std::optional<Browser> browser_;

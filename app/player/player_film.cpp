@@ -151,7 +151,7 @@ void Player::begin(MonotonicTime now) {
 
 // Does not mention a missing device, or one without anything to feel.
 std::string Player::firstHint() const {
-  const std::string help = config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, config_.held);
+  const std::string help = helpKey();
   std::string keys = help.empty() ? "" : help + ": all keys";
   const bool has_device = touch_.waiting() || touch_.running();
   if (!has_device || !film_.info().has_depth) return keys;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <utility>
 
 #include "app/player/player.h"
@@ -20,7 +21,8 @@ bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept 
 
 // Pages of keys that a key turns by; 0: it is none of these.
 int pagesBy(std::uint16_t code) noexcept {
-  constexpr std::array<std::uint16_t, 3> kOn{KEY_DOWN, KEY_RIGHT, KEY_PAGEDOWN}, kBack{KEY_UP, KEY_LEFT, KEY_PAGEUP};
+  constexpr std::array<std::uint16_t, 6> kOn{KEY_DOWN, KEY_RIGHT, KEY_PAGEDOWN, BTN_DPAD_DOWN, BTN_DPAD_RIGHT, BTN_TR};
+  constexpr std::array<std::uint16_t, 6> kBack{KEY_UP, KEY_LEFT, KEY_PAGEUP, BTN_DPAD_UP, BTN_DPAD_LEFT, BTN_TL};
   if (std::ranges::find(kOn, code) != kOn.end()) return 1;
   return std::ranges::find(kBack, code) != kBack.end() ? -1 : 0;
 }
@@ -28,6 +30,11 @@ int pagesBy(std::uint16_t code) noexcept {
 }  // namespace
 
 void Player::readRemote(MonotonicTime now) {
+  const bool has_pad = parts_.remote != nullptr && parts_.remote->hasPad();
+  if (has_pad != has_pad_) {
+    has_pad_ = has_pad;
+    screen_.text().setHelpKey(helpKey());
+  }
   while (parts_.remote != nullptr) {
     const auto key = parts_.remote->poll(now);
     if (!key) {
@@ -93,10 +100,16 @@ void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
   screen_.text().notice({(label.empty() ? "This key" : label) + " has no meaning here", std::nullopt}, now);
 }
 
+// The key that shows all keys: with a gamepad the gamepad's, since it is in the viewer's hands.
+std::string Player::helpKey() const {
+  return config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, has_pad_ ? KeyBoard::Pad : config_.held);
+}
+
 ScreenRows Player::keyRows() const {
   ScreenRows rows;
   if (config_.has_mouse) rows = mouseRows(state_ == PlayerState::Browsing, config_.mouse_touches);
-  for (auto& row : config_.keys.rowsIn(state_, config_.held)) rows.push_back(std::move(row));
+  if (has_pad_) std::ranges::move(config_.keys.rowsIn(state_, KeyBoard::Pad), std::back_inserter(rows));
+  std::ranges::move(config_.keys.rowsIn(state_, config_.held), std::back_inserter(rows));
   return rows;
 }
 

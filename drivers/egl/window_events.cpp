@@ -59,6 +59,8 @@ void WindowDisplay::hear(const SDL_Event& event) {
 void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_CLOSE) closed_by_viewer_ = true;
   if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
+  if (event.event == SDL_WINDOWEVENT_FOCUS_GAINED) input_->focused = true;
+  if (event.event == SDL_WINDOWEVENT_FOCUS_LOST) input_->focused = false;
   if (event.event == SDL_WINDOWEVENT_MOVED && SDL_GetMouseFocus() == window_) {  // the mouse itself tells nothing then
     int x = 0, y = 0;
     SDL_GetGlobalMouseState(&x, &y);

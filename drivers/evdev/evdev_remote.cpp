@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/evdev/evdev.h"
 #include "drivers/evdev/event_nodes.h"
 #include "drivers/evdev/key_hold.h"
+#include "drivers/evdev/pad_keys.h"
 #include "platform/log.h"
 #include "platform/unique_fd.h"
 
@@ -42,17 +44,26 @@ struct Remote {
   UniqueFd fd;  // declared first, to be closed after the device is freed
   Device device;
   KeyHold keys;
+  std::optional<PadKeys> pad;
   bool there = true;
 };
 
 class EvdevRemote final : public RemoteInput {
  public:
+  EvdevRemote() = default;
+  explicit EvdevRemote(std::function<bool()> heard) : heard_(std::move(heard)), pads_only_(true) {}
   ~EvdevRemote() override { close(); }
+  EvdevRemote(const EvdevRemote&) = delete;
+  EvdevRemote& operator=(const EvdevRemote&) = delete;
+
+  [[nodiscard]] bool hasPad() const noexcept override {
+    return std::ranges::any_of(remotes_, [](const auto& remote) { return remote->pad.has_value(); });
+  }
 
  private:
   Result<void> openRemote() override {
     looked_.reset();
-    if (!look() && remotes_.empty()) {
+    if (!look() && remotes_.empty() && !pads_only_) {
       return fail(ErrorCode::PermissionDenied,
                   "no permission to read remote controls; add the user to the group input (sudo usermod -aG input "
                   "$USER) and log in again",
@@ -71,7 +82,9 @@ class EvdevRemote final : public RemoteInput {
       Remote& remote = *remotes_[i];
       remote.there = remote.there && read(remote, now);
       if (!remote.there) remote.keys.letGo(now);
-      if (const auto event = remote.keys.poll(now)) return event;
+      while (const auto event = remote.keys.poll(now)) {
+        if (event->action == KeyEvent::Action::Release || heard_()) return event;
+      }
       if (remote.there) continue;
       log(LogLevel::Info, "remote", "%s was unplugged", libevdev_get_name(remote.device.get()));
       remotes_.erase(remotes_.begin() + static_cast<std::ptrdiff_t>(i--));
@@ -110,8 +123,13 @@ class EvdevRemote final : public RemoteInput {
     libevdev* device = nullptr;
     if (libevdev_new_from_fd(remote->fd.get(), &device) != 0) return true;
     remote->device.reset(device);
-    if (!isRemote(device)) return true;
-    if (!isKeyboard(device))
+    const bool is_pad = isGamepad(device);
+    if (!is_pad && (pads_only_ || !isRemote(device))) return true;
+    if (is_pad) {
+      remote->pad.emplace(device);
+      remote->keys = KeyHold(true);
+    }
+    if (!is_pad && !isKeyboard(device))
       (void)libevdev_grab(device, LIBEVDEV_GRAB);  // if another program has it, both get its keys
     log(LogLevel::Info, "remote", "%s (%s)", libevdev_get_name(device), path.c_str());
     remotes_.push_back(std::move(remote));
@@ -131,10 +149,13 @@ class EvdevRemote final : public RemoteInput {
       }
       if (read < 0) return false;
       if (read == LIBEVDEV_READ_STATUS_SYNC) how = LIBEVDEV_READ_FLAG_SYNC;
-      if (event.type == EV_KEY) remote.keys.take(event.code, event.value, now);
+      if (remote.pad) remote.pad->take(event, remote.keys, now);
+      else if (event.type == EV_KEY) remote.keys.take(event.code, event.value, now);
     }
   }
 
+  std::function<bool()> heard_ = [] { return true; };
+  bool pads_only_ = false;
   std::vector<std::unique_ptr<Remote>> remotes_;
   std::vector<EventNode> looked_at_;
   std::optional<MonotonicTime> looked_;
@@ -144,6 +165,10 @@ class EvdevRemote final : public RemoteInput {
 
 std::unique_ptr<RemoteInput> makeEvdevRemote() {
   return std::make_unique<EvdevRemote>();
+}
+
+std::unique_ptr<RemoteInput> makePadRemote(std::function<bool()> heard) {
+  return std::make_unique<EvdevRemote>(std::move(heard));
 }
 
 }  // namespace relievo

@@ -24,6 +24,9 @@ class KeyHold {
   static constexpr Duration kPeriod = std::chrono::milliseconds(150);  // between repeats
   static constexpr Duration kSilence = std::chrono::milliseconds(550);
 
+  // `sends_releases`: this remote is known to.
+  explicit KeyHold(bool sends_releases = false) noexcept : sends_releases_(sends_releases) {}
+
   // `value` of an EV_KEY input_event: 0 release, 1 press, 2 repeat by the kernel.
   void take(std::uint16_t code, int value, MonotonicTime now) noexcept;
   // The remote was unplugged: releases the held key.
@@ -40,7 +43,7 @@ class KeyHold {
   void say(std::uint16_t code, KeyEvent::Action action, MonotonicTime now) noexcept;
 
   std::optional<Held> held_;
-  bool sends_releases_ = false;
+  bool sends_releases_;
   std::array<KeyEvent, 32> said_{};  // a ring; holds more than a hand can press between two polls
   std::size_t first_ = 0, count_ = 0;
 };

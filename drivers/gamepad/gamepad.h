@@ -20,7 +20,8 @@ struct GamepadConfig {
 // moves the finger, at up to 100 mm/s, and rumble signals the force (see pad_effects.h). With them (a joystick, a
 // wheel), the stick's position is the finger's, and the motors push along its axes; the rest of the force goes to the
 // rumble, if there is one. A trigger or a pedal presses: its travel sets how deep the finger wants to go, against the
-// surface (see pad_finger.h). The first button is the device's main one (bit 0), the second its clutch (bit 1).
+// surface (see pad_finger.h). The first button of a joystick or a wheel is its main one (bit 0), the second its clutch
+// (bit 1); a gamepad's are keys (drivers/evdev/pad_keys.h).
 //
 // Uploading an effect may block, so a thread of its own does it, every 4 ms. It stops all effects when no force comes
 // for 20 ms. A wheel's own centring is off while the device runs; since the kernel cannot report its previous strength,

@@ -64,8 +64,8 @@ void PadControls::findKeys(const InputKeys& keys) noexcept {
   for (const unsigned key : {BTN_TR2, BTN_TR, BTN_TRIGGER, BTN_SOUTH}) {
     if (!analog && press_key_ == KEY_CNT && keys.has(key)) press_key_ = key;
   }
-  std::size_t count = 0;
-  for (const unsigned key : {BTN_SOUTH, BTN_EAST, BTN_THUMB, BTN_THUMB2, BTN_TRIGGER, BTN_TOP}) {
+  std::size_t count = 0;  // a gamepad's own buttons are the remote control's
+  for (const unsigned key : {BTN_THUMB, BTN_THUMB2, BTN_TRIGGER, BTN_TOP}) {
     if (count < button_keys_.size() && key != press_key_ && keys.has(key)) button_keys_[count++] = key;
   }
 }

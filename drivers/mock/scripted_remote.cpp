@@ -79,10 +79,12 @@ class ScriptedRemote final : public RemoteInput {
   ScriptedRemote(const std::vector<ScriptedKey>& keys, const Clock& clock) : clock_(clock) {
     using Action = KeyEvent::Action;
     for (const ScriptedKey& key : keys) {
+      has_pad_ = has_pad_ || isPadButton(key.code);
       add({key.code, Action::Press, MonotonicTime(key.at)});
       add({key.code, Action::Release, MonotonicTime(key.at + key.held)});
     }
   }
+  [[nodiscard]] bool hasPad() const noexcept override { return has_pad_; }
 
  private:
   // Keeps the events sorted by time; at equal times in the script's order.
@@ -110,6 +112,7 @@ class ScriptedRemote final : public RemoteInput {
   std::vector<KeyEvent> events_;  // times are relative to `open`
   const Clock& clock_;
   MonotonicTime opened_;
+  bool has_pad_ = false;  // a gamepad's button is among the keys
   std::size_t next_ = 0;
 };
 

@@ -15,6 +15,8 @@ class JoinedRemote final : public RemoteInput {
   JoinedRemote(const JoinedRemote&) = delete;
   JoinedRemote& operator=(const JoinedRemote&) = delete;
 
+  [[nodiscard]] bool hasPad() const noexcept override { return first_->hasPad() || second_->hasPad(); }
+
  private:
   Result<void> openRemote() override {
     if (auto opened = first_->open(); !opened) return opened;

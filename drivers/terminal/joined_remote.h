@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of two remotes as those of one: of a window and of the terminal that it was started from.
+// The keys of two remotes as those of one: of a window, and of gamepads or the terminal that it was started from.
 #pragma once
 
 #include <memory>

@@ -24,7 +24,8 @@ struct WindowMouse {
 struct WindowInput {
   static constexpr std::size_t kMostKeys = 64;
 
-  std::atomic<bool> open{false};  // the window is open
+  std::atomic<bool> open{false};     // the window is open
+  std::atomic<bool> focused{false};  // it has the desktop's keyboard
   SpscRing<KeyEvent, kMostKeys> keys;
   TripleBuffer<WindowMouse> mouse;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -67,6 +68,7 @@ TEST_F(RemoteEvdev, HearsEveryRemoteAndNoOtherDevice) {
 TEST_F(RemoteEvdev, OneThatComesLaterIsHeardAndOneThatGoesHoldsNothing) {
   const auto remote = makeEvdevRemote();
   ASSERT_TRUE(remote->open()) << "a box without one waits";
+  EXPECT_FALSE(remote->hasPad());
   EXPECT_FALSE(remote->poll(now_).value());
   {
     UmockdevMouse late(bed_, 4, UmockdevMouse::remote());
@@ -86,6 +88,60 @@ TEST_F(RemoteEvdev, OneThatComesLaterIsHeardAndOneThatGoesHoldsNothing) {
   EXPECT_FALSE(remote->poll(now_).value());
   press(again, KEY_PLAYPAUSE, 1);
   expectNext(*remote, KEY_PLAYPAUSE, KeyEvent::Action::Press);
+}
+
+// One node for keys and finger: what is the finger's gives no key, and the pad is not grabbed.
+TEST_F(RemoteEvdev, APadIsARemoteExceptForTheFingersStickAndTriggers) {
+  UmockdevMouse pad(bed_, 7, UmockdevMouse::pad());
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  EXPECT_TRUE(remote->hasPad());
+  EXPECT_FALSE(pad.isGrabbed());
+  const auto turn = [&pad](int axis, int value) {
+    pad.say(EV_ABS, static_cast<std::uint16_t>(axis), value);
+    pad.say(EV_SYN, SYN_REPORT, 0);
+  };
+  for (const int axis : {ABS_X, ABS_Y, ABS_Z, ABS_RZ}) turn(axis, 255);
+  turn(ABS_X, -32767);
+  press(pad, BTN_THUMBL, 1);
+  press(pad, BTN_THUMBL, 0);
+  for (const std::uint16_t button : std::array<std::uint16_t, 5>{BTN_SOUTH, BTN_EAST, BTN_TR, BTN_START, BTN_MODE}) {
+    press(pad, button, 1);
+    expectNext(*remote, button, KeyEvent::Action::Press);
+    press(pad, button, 0);
+    expectNext(*remote, button, KeyEvent::Action::Release);
+  }
+  turn(ABS_HAT0Y, 1);
+  expectNext(*remote, BTN_DPAD_DOWN, KeyEvent::Action::Press);
+  now_ += 2s;
+  expectNext(*remote, BTN_DPAD_DOWN, KeyEvent::Action::Repeat);
+  turn(ABS_HAT0Y, -1);
+  expectNext(*remote, BTN_DPAD_DOWN, KeyEvent::Action::Release);
+  expectNext(*remote, BTN_DPAD_UP, KeyEvent::Action::Press);
+  turn(ABS_HAT0Y, 0);
+  expectNext(*remote, BTN_DPAD_UP, KeyEvent::Action::Release);
+  turn(ABS_RY, -30000);
+  expectNext(*remote, KEY_VOLUMEUP, KeyEvent::Action::Press);
+  turn(ABS_RY, -16000);  // on its way back
+  turn(ABS_RY, 100);
+  expectNext(*remote, KEY_VOLUMEUP, KeyEvent::Action::Release);
+  EXPECT_EQ(pad.unknownRequests(), 0);
+}
+
+// Beside a window's keyboard: pads alone, and only while the window has the focus.
+TEST_F(RemoteEvdev, OfAWindowThePadsAloneAreHeardWhileItHasTheFocus) {
+  UmockdevMouse other(bed_, 1, UmockdevMouse::remote()), pad(bed_, 7, UmockdevMouse::pad());
+  bool focused = false;
+  const auto remote = makePadRemote([&focused] { return focused; });
+  ASSERT_TRUE(remote->open());
+  EXPECT_FALSE(other.isGrabbed());
+  press(other, KEY_OK, 1);
+  press(pad, BTN_SOUTH, 1);
+  press(pad, BTN_SOUTH, 0);
+  expectNext(*remote, BTN_SOUTH, KeyEvent::Action::Release);  // the press was dropped
+  focused = true;
+  press(pad, BTN_EAST, 1);
+  expectNext(*remote, BTN_EAST, KeyEvent::Action::Press);
 }
 
 }  // namespace

@@ -85,6 +85,24 @@ constexpr Label kOnRemotes[] = {
     {KEY_HELP, "Help"},
     {KEY_MENU, "Menu"},
 };
+constexpr Label kOnPads[] = {
+    {BTN_SOUTH, "Pad A or Cross"},
+    {BTN_EAST, "Pad B or Circle"},
+    {BTN_NORTH, "Pad X or Triangle"},
+    {BTN_WEST, "Pad Y or Square"},
+    {BTN_TL, "Pad LB or L1"},
+    {BTN_TR, "Pad RB or R1"},
+    {BTN_SELECT, "Pad Select"},
+    {BTN_START, "Pad Start"},
+    {BTN_MODE, "Pad Guide"},
+    {BTN_THUMBR, "Pad right stick pressed"},
+    {BTN_DPAD_UP, "Pad Up"},
+    {BTN_DPAD_DOWN, "Pad Down"},
+    {BTN_DPAD_LEFT, "Pad Left"},
+    {BTN_DPAD_RIGHT, "Pad Right"},
+    {KEY_VOLUMEUP, "Pad right stick up"},
+    {KEY_VOLUMEDOWN, "Pad right stick down"},
+};
 
 std::string_view find(std::span<const Label> labels, std::uint16_t code) noexcept {
   const auto label = std::ranges::find(labels, code, &Label::code);
@@ -109,7 +127,12 @@ std::string keyboardLabel(std::uint16_t code) {
   return name;
 }
 
+std::string padLabel(std::uint16_t code) {
+  return std::string(find(kOnPads, code));
+}
+
 bool isOnRemotes(std::uint16_t code) noexcept {
+  if (isPadButton(code)) return false;
   return isDigit(code) || !find(kOnRemotes, code).empty() || keyboardLabel(code).empty();
 }
 
@@ -141,7 +164,8 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
 }
 
 std::string keyLabel(std::uint16_t code, KeyBoard held) {
-  const std::string label = held == KeyBoard::Keyboard ? keyboardLabel(code) : "";
+  const bool pad = held == KeyBoard::Pad || isPadButton(code);
+  const std::string label = pad ? padLabel(code) : held == KeyBoard::Keyboard ? keyboardLabel(code) : "";
   return label.empty() ? remoteLabel(code) : label;
 }
 

@@ -48,6 +48,7 @@ class CommandKeys {
 };
 
 bool isOn(KeyBoard held, std::uint16_t code) {
+  if (held == KeyBoard::Pad) return !padLabel(code).empty();
   return held == KeyBoard::Keyboard ? !keyboardLabel(code).empty() : isOnRemotes(code);
 }
 
@@ -93,13 +94,14 @@ Rows KeyTable::rowsIn(PlayerState state, KeyBoard held) const {
       if (find(state, code) != &binding) continue;  // the state's own row holds
       if (state == PlayerState::Browsing && binding.press && needsFilm(binding.press->verb)) continue;
       for (const std::uint16_t each : codesOf(state, code)) {
+        if (held != KeyBoard::Pad && isPadButton(each)) continue;
         CommandKeys& keys = isOn(held, each) ? own : other;
         keys.put(binding.press, keyLabel(each, held));
         keys.put(binding.hold, keyLabel(each, held) + " (held)");
       }
     }
   }
-  if (held == KeyBoard::Keyboard) return rowsOf(own.lines());
+  if (held != KeyBoard::Remote) return rowsOf(own.lines());
   Rows rows = rowsOf(own.lines());  // a box may have a keyboard, too
   for (const auto& [command, keys] : other.lines()) {
     if (!own.has(command)) rows.emplace_back(keys, meaningOf(command));
@@ -112,9 +114,12 @@ std::string KeyTable::keyFor(PlayerVerb verb, PlayerState state, KeyBoard held) 
   for (const std::size_t t : {static_cast<std::size_t>(state), kAlways}) {
     for (const auto& [code, binding] : tables_[t]) {
       const bool does = find(state, code) == &binding && binding.press && binding.press->verb == verb;
-      if (!does || !isOn(held, code)) continue;
-      if (held == KeyBoard::Keyboard) return keyLabel(code, held);
-      keys += (keys.empty() ? "" : " or ") + keyLabel(code, held);
+      if (!does) continue;
+      for (const std::uint16_t each : codesOf(state, code)) {
+        if (!isOn(held, each)) continue;
+        if (held != KeyBoard::Remote) return keyLabel(each, held);
+        keys += (keys.empty() ? "" : " or ") + keyLabel(each, held);
+      }
     }
   }
   return keys;

@@ -21,12 +21,32 @@ struct Twin {
   std::uint16_t code, of;
 };
 constexpr std::array kTwins{
-    Twin{KEY_PLAYCD, KEY_PLAY}, Twin{KEY_PAUSECD, KEY_PAUSE}, Twin{KEY_STOPCD, KEY_STOP},
-    Twin{KEY_ENTER, KEY_OK},    Twin{KEY_SELECT, KEY_OK},     Twin{KEY_KPENTER, KEY_OK},
-    Twin{KEY_EXIT, KEY_BACK},   Twin{KEY_NEXTSONG, KEY_NEXT}, Twin{KEY_PREVIOUSSONG, KEY_PREVIOUS},
-    Twin{KEY_1, KEY_NUMERIC_1}, Twin{KEY_2, KEY_NUMERIC_2},   Twin{KEY_3, KEY_NUMERIC_3},
-    Twin{KEY_4, KEY_NUMERIC_4}, Twin{KEY_5, KEY_NUMERIC_5},   Twin{KEY_6, KEY_NUMERIC_6},
-    Twin{KEY_7, KEY_NUMERIC_7}, Twin{KEY_8, KEY_NUMERIC_8},
+    Twin{KEY_PLAYCD, KEY_PLAY},
+    Twin{KEY_PAUSECD, KEY_PAUSE},
+    Twin{KEY_STOPCD, KEY_STOP},
+    Twin{KEY_ENTER, KEY_OK},
+    Twin{KEY_SELECT, KEY_OK},
+    Twin{KEY_KPENTER, KEY_OK},
+    Twin{KEY_EXIT, KEY_BACK},
+    Twin{KEY_NEXTSONG, KEY_NEXT},
+    Twin{KEY_PREVIOUSSONG, KEY_PREVIOUS},
+    Twin{KEY_1, KEY_NUMERIC_1},
+    Twin{KEY_2, KEY_NUMERIC_2},
+    Twin{KEY_3, KEY_NUMERIC_3},
+    Twin{KEY_4, KEY_NUMERIC_4},
+    Twin{KEY_5, KEY_NUMERIC_5},
+    Twin{KEY_6, KEY_NUMERIC_6},
+    Twin{KEY_7, KEY_NUMERIC_7},
+    Twin{KEY_8, KEY_NUMERIC_8},
+    // A gamepad's, as in Kodi.
+    Twin{BTN_SOUTH, KEY_OK},
+    Twin{BTN_EAST, KEY_BACK},
+    Twin{BTN_START, KEY_MENU},
+    Twin{BTN_SELECT, KEY_INFO},
+    Twin{BTN_DPAD_UP, KEY_UP},
+    Twin{BTN_DPAD_DOWN, KEY_DOWN},
+    Twin{BTN_DPAD_LEFT, KEY_LEFT},
+    Twin{BTN_DPAD_RIGHT, KEY_RIGHT},
 };
 
 std::uint16_t twinOf(std::uint16_t code) noexcept {

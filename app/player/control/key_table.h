@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which key of a remote control, a keyboard or CEC gives which command, in which state.
+// Which key of a remote control, a keyboard, a gamepad or CEC gives which command, in which state.
 #pragma once
 
 #include <array>
@@ -31,7 +31,7 @@ namespace relievo {
 //
 // Keys by their names in linux/input-event-codes.h, without KEY_; commands in the words of
 // app/player/control/command.h. Of two codes that remotes send for one word (PLAYCD for PLAY, ENTER and SELECT for OK,
-// EXIT for BACK, ..) one row is enough.
+// EXIT for BACK, ..) one row is enough; so it is for a gamepad's button that does what a remote's key does.
 class KeyTable {
  public:
   struct Binding {
@@ -50,7 +50,8 @@ class KeyTable {
   [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
   // The meaning of the viewer's keys in a state: a row for each command, in plain words.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state, KeyBoard held) const;
-  // The key for this command, with its label: one key of a keyboard, or all of a remote control; empty: none.
+  // The key for this command, with its label: one key of a keyboard or a
+  // gamepad, or all of a remote control; empty: none.
   [[nodiscard]] std::string keyFor(PlayerVerb verb, PlayerState state, KeyBoard held) const;
   // For the help: a line for each command, with its keys' names.
   [[nodiscard]] std::string help() const;

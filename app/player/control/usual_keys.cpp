@@ -122,11 +122,23 @@ NUMERIC_7 = "seek 70%"
 NUMERIC_8 = "seek 80%"
 NUMERIC_9 = "seek 90%"
 
+# a gamepad; rows not given here are those of OK (BTN_SOUTH), BACK (BTN_EAST), MENU (BTN_START), INFO (BTN_SELECT), of
+# the arrows (BTN_DPAD_UP, ..), and of VOLUMEUP and VOLUMEDOWN (the second stick)
+BTN_NORTH = { press = "subtitles", hold = "audio" }
+BTN_WEST = { press = "layout", hold = "full-screen" }
+BTN_TL = "chapter -1"
+BTN_TR = "chapter +1"
+BTN_THUMBR = "mute"
+BTN_MODE = { hold = "quit" }
+
 [browsing]
 UP = "select -1"
 DOWN = "select +1"
 PAGEUP = "select -5"
 PAGEDOWN = "select +5"
+BTN_TL = "select -5"
+BTN_TR = "select +5"
+BTN_WEST = "full-screen"
 HOME = "select 1"
 END = "select last"
 OK = "choose"

@@ -23,6 +23,13 @@ UmockdevMouse::Codes UmockdevMouse::keyboard() {
 UmockdevMouse::Codes UmockdevMouse::remote() {
   return {{EV_SYN, {SYN_REPORT}}, {EV_KEY, {KEY_OK, KEY_LEFT, KEY_RIGHT, KEY_PLAYPAUSE}}};
 }
+UmockdevMouse::Codes UmockdevMouse::pad() {
+  return {{EV_SYN, {SYN_REPORT}},
+          {EV_KEY,
+           {BTN_SOUTH, BTN_EAST, BTN_NORTH, BTN_WEST, BTN_TL, BTN_TR, BTN_SELECT, BTN_START, BTN_MODE, BTN_THUMBL,
+            BTN_THUMBR}},
+          {EV_ABS, {ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_HAT0X, ABS_HAT0Y}}};
+}
 
 UmockdevMouse::UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes)
     : bed_(bed),
@@ -118,6 +125,14 @@ bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
   if (number > _IOC_NR(EVIOCGBIT(0, 0)) && number <= _IOC_NR(EVIOCGBIT(EV_MAX, 0))) {
     const auto found = codes_.find(static_cast<std::uint16_t>(number - _IOC_NR(EVIOCGBIT(0, 0))));
     return bits(found == codes_.end() ? std::vector<std::uint16_t>{} : found->second);
+  }
+  if (number >= _IOC_NR(EVIOCGABS(0)) && number <= _IOC_NR(EVIOCGABS(ABS_MAX))) {
+    const auto axis = number - _IOC_NR(EVIOCGABS(0));
+    const bool is_hat = axis == ABS_HAT0X || axis == ABS_HAT0Y, is_trigger = axis == ABS_Z || axis == ABS_RZ;
+    const int most = is_hat ? 1 : is_trigger ? 255 : 32767;
+    const input_absinfo range{.minimum = is_trigger ? 0 : -most, .maximum = most};
+    std::memcpy(data->data, &range, sizeof range);
+    return complete(0);
   }
   ++unknown_;
   return complete(-1, ENOTTY);

@@ -23,6 +23,7 @@ class UmockdevMouse {
   static Codes mouse();
   static Codes keyboard();
   static Codes remote();
+  static Codes pad();  // an Xbox pad
 
   // Creates the node /dev/input/eventN.
   UmockdevMouse(UMockdevTestbed* bed, int number, Codes codes);

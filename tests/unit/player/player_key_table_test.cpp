@@ -119,6 +119,20 @@ const std::map<int, std::string> kMeanings{
     {0x166, "info"},
     {139, "keys"},
     {138, "keys"},
+    // a gamepad's
+    {0x130, "play-pause"},
+    {0x131, "back"},
+    {0x133, "subtitles"},
+    {0x134, "layout"},
+    {0x136, "chapter -1"},
+    {0x137, "chapter +1"},
+    {0x13a, "info"},
+    {0x13b, "keys"},
+    {0x13e, "mute"},
+    {0x220, "seek +60"},
+    {0x221, "seek -60"},
+    {0x222, "seek -5"},
+    {0x223, "seek +5"},
 };
 
 TEST(KeyTable, KnowsTheKeysOfRemotesKeyboardsAndCec) {
@@ -170,6 +184,7 @@ TEST(KeyTable, NamesTheKeyOfACommandAsTheViewerReadsIt) {
   EXPECT_EQ(table.keyFor(PlayerVerb::Keys, State::Playing, KeyBoard::Remote), "Help or Menu");
   EXPECT_EQ(table.keyFor(PlayerVerb::Layout, State::Playing, KeyBoard::Remote), "Blue or 3D");
   EXPECT_EQ(table.keyFor(PlayerVerb::Screenshot, State::Playing, KeyBoard::Remote), "");
+  EXPECT_EQ(table.keyFor(PlayerVerb::Keys, State::Playing, KeyBoard::Pad), "Pad Start");
 }
 
 // Keys are named as they are labelled on the keyboard or remote that the viewer uses.
@@ -192,6 +207,13 @@ TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 10 % larger"), "Shift+g");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "the last film"), "End");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "play the selected film"), "Space, Right, Enter");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Pad, "pause or continue"), "Pad A or Cross");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Pad, "5 % louder"), "Pad right stick up");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Pad, "end the program"), "Pad Guide (held)");
+  EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Pad, "play the selected film"), "Pad Right, Pad A or Cross");
+  for (const KeyBoard held : {KeyBoard::Keyboard, KeyBoard::Remote}) {
+    for (const auto& [key, what] : table.rowsIn(State::Playing, held)) EXPECT_EQ(key.find("Pad"), key.npos) << key;
+  }
   for (const auto& [key, what] : table.rowsIn(State::Playing, KeyBoard::Keyboard)) {
     for (const char* remote : {"OK", "Channel", "Red", "BRACE", "NUMERIC"}) {
       EXPECT_EQ(key.find(remote), std::string::npos) << key;
@@ -211,7 +233,7 @@ TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
       ++names;
     }
   }
-  EXPECT_EQ(names, 124);
+  EXPECT_EQ(names, 135);
 }
 
 TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
@@ -228,6 +250,11 @@ TEST(KeyTable, AFileChangesRowsAndLeavesTheRest) {
   EXPECT_EQ(wordsOf(*pressed(*table, State::Paused, KEY_OK)), "play-pause");
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_ENTER)), "info");  // said for itself
   EXPECT_EQ(table->find(State::Playing, KEY_OK)->hold, (PlayerCommand{PlayerVerb::Stop}));
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, BTN_SOUTH)), "pause");  // a gamepad's twin
+  const auto pad = KeyTable::parse("[always]\nBTN_SOUTH = \"step\"\n", "keys.toml");
+  ASSERT_TRUE(pad) << pad.error().thing;
+  EXPECT_EQ(wordsOf(*pressed(*pad, State::Playing, BTN_SOUTH)), "step");
+  EXPECT_EQ(wordsOf(*pressed(*pad, State::Playing, KEY_OK)), "play-pause");
 }
 
 class KeyTableWrong : public testing::TestWithParam<std::pair<const char*, const char*>> {};

@@ -154,21 +154,31 @@ TEST_F(GamepadTest, AWheelsPedalIsKnownByTheFirstPositionThatItTells) {
   EXPECT_EQ(controls.pull(), 1);
 }
 
-TEST_F(GamepadTest, ItsFirstTwoButtonsAreMainAndClutch) {
-  run(test::xboxPad());
-  pad_->press(BTN_SOUTH, true);
+TEST_F(GamepadTest, TheFirstTwoButtonsOfAJoystickAreMainAndClutch) {
+  run(test::joystick());
+  pad_->press(BTN_THUMB, true);
   EXPECT_EQ(after(1).buttons, 1U);
-  pad_->press(BTN_EAST, true);
+  pad_->press(BTN_THUMB2, true);
   EXPECT_EQ(after(1).buttons, 3U);
-  pad_->press(BTN_SOUTH, false);
+  pad_->press(BTN_THUMB, false);
   EXPECT_EQ(after(1).buttons, 2U);
 }
 
-TEST_F(GamepadTest, AfterDroppedEventsItsStateIsAskedForAnew) {
+// They are keys: "back" must not be a clutch, too.
+TEST_F(GamepadTest, AGamepadsButtonsAreNotTheFingers) {
   run(test::xboxPad());
-  pad_->press(BTN_SOUTH, true);
+  for (const int button : {BTN_SOUTH, BTN_EAST, BTN_TL, BTN_TR}) pad_->press(static_cast<std::uint16_t>(button), true);
+  EXPECT_EQ(after(1).buttons, 0U);
+  EXPECT_NEAR(after(1000).position_mm.z, 55, 1e-3);
+}
+
+TEST_F(GamepadTest, AfterDroppedEventsItsStateIsAskedForAnew) {
+  PadFacts facts = test::xboxPad();
+  facts.keys.put(BTN_THUMB);
+  run(facts);
+  pad_->press(BTN_THUMB, true);
   EXPECT_EQ(after(1).buttons, 1U);
-  pad_->down.put(BTN_SOUTH, false);
+  pad_->down.put(BTN_THUMB, false);
   pad_->facts.ranges[ABS_RZ].value = 51;
   pad_->say(EV_SYN, SYN_DROPPED, 0);
   pad_->say(EV_ABS, ABS_RZ, 255);

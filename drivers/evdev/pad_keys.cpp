@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/evdev/pad_keys.h"
+
+#include <libevdev/libevdev.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+constexpr double kPressed = 0.6, kReleased = 0.4;  // of an axis's way from its middle
+
+// Not the sticks' and the triggers' own: BTN_THUMBL, BTN_TL2, BTN_TR2.
+constexpr std::array kButtons{BTN_SOUTH,   BTN_EAST,      BTN_NORTH,     BTN_WEST,      BTN_TL,
+                              BTN_TR,      BTN_SELECT,    BTN_START,     BTN_MODE,      BTN_THUMBR,
+                              BTN_DPAD_UP, BTN_DPAD_DOWN, BTN_DPAD_LEFT, BTN_DPAD_RIGHT};
+
+}  // namespace
+
+bool isGamepad(const libevdev* device) noexcept {
+  const auto has = [device](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
+  return has(EV_KEY, BTN_GAMEPAD) && has(EV_ABS, ABS_Y) && !has(EV_KEY, BTN_WHEEL);
+}
+
+PadKeys::PadKeys(const libevdev* device) {
+  for (Axis axis : {Axis{ABS_HAT0X, BTN_DPAD_LEFT, BTN_DPAD_RIGHT}, Axis{ABS_HAT0Y, BTN_DPAD_UP, BTN_DPAD_DOWN},
+                    Axis{ABS_RY, KEY_VOLUMEUP, KEY_VOLUMEDOWN}}) {
+    axis.low = libevdev_get_abs_minimum(device, axis.code);
+    axis.high = libevdev_get_abs_maximum(device, axis.code);
+    if (axis.low < axis.high) axes_.push_back(axis);  // one that the device lacks has 0 for both
+  }
+  const auto has_axis = [device](unsigned code) { return libevdev_has_event_code(device, EV_ABS, code) != 0; };
+  const bool has_trigger = libevdev_has_event_code(device, EV_KEY, BTN_TR2) != 0 ||
+                           std::ranges::any_of(std::array{ABS_GAS, ABS_BRAKE, ABS_Z, ABS_RZ}, has_axis);
+  shoulder_presses_ = !has_trigger;
+}
+
+std::uint16_t PadKeys::Axis::keyAt(int value) const noexcept {
+  const double place = 2.0 * (value - low) / (high - low) - 1;
+  if (std::abs(place) < (down == KEY_RESERVED ? kPressed : kReleased)) return KEY_RESERVED;
+  return place < 0 ? at_low : at_high;
+}
+
+void PadKeys::take(const input_event& event, KeyHold& keys, MonotonicTime now) {
+  if (event.type == EV_KEY) {
+    const bool is_key = std::ranges::find(kButtons, event.code) != kButtons.end();
+    if (is_key && !(shoulder_presses_ && event.code == BTN_TR)) keys.take(event.code, event.value, now);
+  }
+  if (event.type != EV_ABS) return;
+  const auto axis = std::ranges::find(axes_, event.code, &Axis::code);
+  if (axis == axes_.end()) return;
+  const std::uint16_t key = axis->keyAt(event.value);
+  if (key == axis->down) return;
+  if (axis->down != KEY_RESERVED) keys.take(axis->down, 0, now);
+  if (key != KEY_RESERVED) keys.take(key, 1, now);
+  axis->down = key;
+}
+
+}  // namespace relievo
