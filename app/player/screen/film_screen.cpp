@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/player/screen/bar_script.h"
 #include "app/player/screen/keys_script.h"
 #include "app/player/screen/list_script.h"
-#include "app/player/screen/screen_script.h"
 #include "app/player/screen/stereo_word.h"
 #include "platform/log.h"
 #include "platform/print.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/player/png_file.h"
 #include "app/player/screen/film_screen.h"
-#include "app/player/screen/png_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/print.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/player/screen/screen_script.h"
+#include "app/player/screen/bar_script.h"
 #include "app/player/screen/stereo_word.h"
 
 namespace relievo {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The on-screen display as a script for libass, and the position of its bar. Pure.
+// The on-screen display as a script for libass. Pure.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +19,5 @@ constexpr double kScreenRows = 720;
 [[nodiscard]] std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height = 720);
 // What lies over the posters of the list of films; empty without a list.
 [[nodiscard]] std::vector<std::string> linesOverPosters(const ScreenContent& content, double aspect);
-// How far down the view is free for subtitles, as a share of its height: to where the bar begins.
-[[nodiscard]] double roomForWords(const ScreenContent& content, double aspect);
-
-// The position in the bar of a point of the view, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the
-// view.
-[[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;
-// The same at any distance above or below the bar.
-[[nodiscard]] double barShareAlong(double across, double aspect) noexcept;
 
 }  // namespace relievo

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/player/control/key_table.h"
+#include "app/player/screen/bar_script.h"
 #include "app/player/screen/keys_script.h"
 #include "app/player/screen/screen_script.h"
 #include "app/render/text/ass_text.h"

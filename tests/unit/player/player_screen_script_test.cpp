@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/player/control/key_table.h"
+#include "app/player/screen/bar_script.h"
 #include "app/player/screen/fold.h"
 #include "app/player/screen/keys_script.h"
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/player/screen/png_file.h"
+#include "app/player/png_file.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {

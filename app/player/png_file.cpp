@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three chunks; the samples in stored blocks of RFC 1950 and 1951.
-#include "app/player/screen/png_file.h"
+#include "app/player/png_file.h"
 
 #include <algorithm>
 #include <array>
