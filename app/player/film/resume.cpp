@@ -3,12 +3,12 @@
 #include "app/player/film/resume.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
+#include "platform/named_folder.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -46,13 +46,9 @@ Result<void> write(const std::string& path, const Films& films) {
 }  // namespace
 
 std::string Resume::defaultPath() {
-  const auto set = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  if (const auto state = set("STATE_DIRECTORY"); !state.empty()) return state / "resume.json";
-  if (const auto xdg = set("XDG_STATE_HOME"); !xdg.empty()) return xdg / "relievo/resume.json";
-  if (const auto home = set("HOME"); !home.empty()) return home / ".local/state/relievo/resume.json";
+  if (const auto state = namedFolder("STATE_DIRECTORY"); !state.empty()) return state / "resume.json";
+  if (const auto xdg = namedFolder("XDG_STATE_HOME"); !xdg.empty()) return xdg / "relievo/resume.json";
+  if (const auto home = namedFolder("HOME"); !home.empty()) return home / ".local/state/relievo/resume.json";
   return "";
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Screenshots: taken from the next picture that is drawn, named and written by the file writer.
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "app/player/screen/film_screen.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
+#include "platform/named_folder.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -19,10 +19,9 @@ namespace fs = std::filesystem;
 
 // The desktop's folder of pictures, else the current folder.
 fs::path picturesFolder() {
-  const char* const told = std::getenv("XDG_PICTURES_DIR");
-  const char* const home = std::getenv("HOME");
-  if (told != nullptr && isFolder(told)) return told;
-  if (home != nullptr && isFolder(fs::path(home) / "Pictures")) return fs::path(home) / "Pictures";
+  const fs::path told = namedFolder("XDG_PICTURES_DIR"), home = namedFolder("HOME");
+  if (!told.empty() && isFolder(told)) return told;
+  if (!home.empty() && isFolder(home / "Pictures")) return home / "Pictures";
   return ".";
 }
 

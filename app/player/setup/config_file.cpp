@@ -8,13 +8,13 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
 #include "platform/atomic_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
+#include "platform/named_folder.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -95,11 +95,8 @@ std::string logAreas() {
 }  // namespace
 
 std::string defaultConfigPath() {
-  const char* xdg = std::getenv("XDG_CONFIG_HOME");
-  const char* home = std::getenv("HOME");
-  std::filesystem::path own;
-  if (xdg != nullptr && *xdg != '\0') own = xdg;
-  else if (home != nullptr && *home != '\0') own = std::filesystem::path(home) / ".config";
+  std::filesystem::path own = namedFolder("XDG_CONFIG_HOME");
+  if (const auto home = namedFolder("HOME"); own.empty() && !home.empty()) own = home / ".config";
   if (!own.empty() && isThere(own / "relievo/relievo.toml")) return own / "relievo/relievo.toml";
   return kSystemPath;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "platform/named_folder.h"
+
 namespace relievo {
 namespace {
 
@@ -75,12 +77,8 @@ void settleSignal(PlayOptions& play) {
 }
 
 std::string usualFilms() {
-  const auto set = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    return value == nullptr ? "" : value;
-  };
-  if (const auto xdg = set("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
-  if (const auto home = set("HOME"); !home.empty()) return home / "Videos";
+  if (const auto xdg = namedFolder("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
+  if (const auto home = namedFolder("HOME"); !home.empty()) return home / "Videos";
   return "/srv/films";
 }
 

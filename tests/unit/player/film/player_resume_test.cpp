@@ -127,3 +127,7 @@ TEST_F(ResumeTest, TheServicesFolderGoesBeforeThePersons) {
 
 }  // namespace
 }  // namespace relievo
+  for (const char* name : {"XDG_STATE_HOME", "STATE_DIRECTORY"}) ::setenv(name, "state", 1);
+  EXPECT_EQ(Resume::defaultPath(), "/home/you/.local/state/relievo/resume.json") << "relative ones are ignored";
+  ::setenv("HOME", ".", 1);
+  EXPECT_EQ(Resume::defaultPath(), "");
