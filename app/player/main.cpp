@@ -151,7 +151,7 @@ int play(PlayOptions options, const FileConfig& config) {
   PlayerControl control(std::move(outputs->socket), drivers::switchFault);
   const auto recorderOf = [](std::optional<Recorder>& recorder) { return recorder ? &*recorder : nullptr; };
 
-  const bool for_a_time = options.player.duration.has_value();
+  const bool for_a_time = options.player.duration.has_value(), resume = options.resume;
   StatusLine status;
   Player player(std::move(options.player),
                 {.clock = clock,
@@ -172,7 +172,7 @@ int play(PlayOptions options, const FileConfig& config) {
   if (!played) return tellWithNearFile(played.error());
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
-  return files;
+  return resume && !player.placesAreKept() ? kExitFailed : files;  // the log has said why
 }
 
 int probeSource(const ProbeOptions& options) {

@@ -92,6 +92,8 @@ class Player {
   [[nodiscard]] std::optional<std::string> refusal(const PlayerCommand& command) const;
   // The report so far. On its thread.
   [[nodiscard]] PlayReport report() const;
+  // After `run`: whether the films' positions could be written.
+  [[nodiscard]] bool placesAreKept() const noexcept { return programme_.placesAreKept(); }
 
   // The present state, and the URL of the film; empty if there is none. On its thread.
   [[nodiscard]] ScreenFacts facts() const;

@@ -66,11 +66,15 @@ std::vector<FolderEntry> entriesOf(const std::string& path) {
   return listFolder(path).value_or(std::vector<FolderEntry>());
 }
 
-void makeFolders(const std::string& path) {
-  static_cast<void>(answerOf(path, [path] {
-    std::error_code failed;
-    return std::filesystem::create_directories(path, failed);
-  }));
+Result<void> makeFolders(const std::string& path) {
+  const auto failed = answerOf(path, [path] {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    return error.value();
+  });
+  if (!failed) return std::unexpected(failed.error());
+  if (*failed == 0) return {};
+  return fail(ErrorCode::Io, "its folder cannot be made; choose another folder", *failed);
 }
 
 }  // namespace relievo

@@ -29,7 +29,7 @@ struct FolderEntry {
 // The same; also empty if the file system does not answer.
 [[nodiscard]] std::vector<FolderEntry> entriesOf(const std::string& path);
 
-// Makes the folder and its missing parents. Reports no error: writing a file there will report it.
-void makeFolders(const std::string& path);
+// Makes the folder and its missing parents.
+[[nodiscard]] Result<void> makeFolders(const std::string& path);
 
 }  // namespace relievo

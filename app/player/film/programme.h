@@ -67,6 +67,8 @@ class Programme {
   void keepAtOnce(std::optional<MediaTime> place, MonotonicTime now);
   // The viewer has seen the present film to its end: it starts from the beginning next time.
   void forgetPlace();
+  // See Resume::isKept; true without a file of positions.
+  [[nodiscard]] bool placesAreKept() const noexcept { return !resume_ || resume_->isKept(); }
 
  private:
   std::optional<Resume> resume_;

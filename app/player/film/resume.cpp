@@ -35,11 +35,11 @@ Result<Films> load(const std::string& path) {
 }
 
 void tell(const std::string& path, const Error& error) {
-  log(LogLevel::Warning, "play", "%s: %s; films will start from the beginning", path.c_str(), error.message);
+  log(LogLevel::Warning, "play", "%s: films will start from the beginning: %s", path.c_str(), error.message);
 }
 
 Result<void> write(const std::string& path, const Films& films) {
-  makeFolders(std::filesystem::path(path).parent_path());
+  if (auto made = makeFolders(std::filesystem::path(path).parent_path()); !made) return made;
   return writeFile(path, Json(films).dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
@@ -63,6 +63,7 @@ Resume::Resume(std::string path, FileWriter& files) : path_(std::move(path)), fi
   auto films = load(path_);
   if (films) films_ = std::move(*films);
   else tell(std::exchange(path_, {}), films.error());
+  state_->kept = films.has_value();
 }
 
 std::optional<std::string> Resume::last() const {
@@ -96,9 +97,10 @@ void Resume::forget(const std::string& url) {
 void Resume::changed() {
   if (path_.empty()) return;
   // A newer write replaces a waiting one, so that there is always room for it.
-  files_.give(path_, [path = path_, films = films_, told = told_] {
+  files_.give(path_, [path = path_, films = films_, state = state_] {
     const auto written = write(path, films);
-    if (written || std::exchange(*told, true)) return;
+    state->kept = written.has_value();
+    if (written || std::exchange(state->told, true)) return;
     tell(path, written.error());
   });
 }

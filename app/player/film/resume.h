@@ -39,6 +39,9 @@ class Resume {
   void keep(const std::string& url, MediaTime position);
   // The film has been seen to its end.
   void forget(const std::string& url);
+  // False if the newest positions could not be written, or the file could not be read. Call when the writer is
+  // finished.
+  [[nodiscard]] bool isKept() const noexcept { return state_->kept; }
 
  private:
   using Films = std::vector<std::pair<std::string, double>>;
@@ -47,7 +50,10 @@ class Resume {
   std::string path_;  // empty: nothing is written
   FileWriter& files_;
   Films films_;
-  std::shared_ptr<bool> told_ = std::make_shared<bool>(false);  // the writer's
+  struct State {
+    bool kept = true, told = false;
+  };
+  std::shared_ptr<State> state_ = std::make_shared<State>();  // the writer's
 };
 
 }  // namespace relievo

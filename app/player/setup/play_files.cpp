@@ -28,8 +28,8 @@ Outcome<void> loadPlayFiles(PlayOptions& options) {
     return failOn("--resume",
                   {ErrorCode::NotFound, 0, "there is no folder to keep settings in; set HOME or STATE_DIRECTORY"});
   }
-  makeFolders(std::filesystem::path(path).parent_path());
-  const auto place = AtomicFile::create(path);
+  const auto made = makeFolders(std::filesystem::path(path).parent_path());
+  const auto place = made ? AtomicFile::create(path) : std::unexpected(made.error());
   if (!place && options.resume) return failOn("--resume " + path, place.error());
   if (place) options.player.resume_path = path;
   return {};

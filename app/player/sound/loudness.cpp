@@ -29,7 +29,7 @@ Result<void> write(const std::string& path, const std::string& device, double pe
   auto json = load(path);
   if (!json) return std::unexpected(json.error());
   (*json)[device] = percent;
-  makeFolders(std::filesystem::path(path).parent_path());
+  if (auto made = makeFolders(std::filesystem::path(path).parent_path()); !made) return made;
   return writeFile(path, json->dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

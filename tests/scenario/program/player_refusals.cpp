@@ -152,7 +152,12 @@ TEST_F(PlayerProgram, WhatWasAskedForAndDidNotHappenIsAFailure) {
   EXPECT_THAT(silent.err, HasSubstr("udp://127.0.0.1:47391: --duration ended before the first picture came"));
   makeClip(at("film.mkv"), {color(), depth()});
   ::setenv("XDG_STATE_HOME", at("film.mkv").c_str(), 1);  // a file, where a folder is to be
-  expectOneLine(play(at("film.mkv") + " --resume"), 1, "--resume " + at("film.mkv"));
+  expectOneLine(play(at("film.mkv") + " --resume"), 1, "its folder cannot be made; choose another folder (Not a dir");
+  ::setenv("XDG_STATE_HOME", at("state").c_str(), 1);
+  fs::create_directories(at("state/relievo"));
+  fs::create_symlink("/dev/full", at("state/relievo/resume.json"));
+  const auto full = play(at("film.mkv") + " --resume");
+  EXPECT_EQ(full.exit_code, 1) << full.err;
   ::unsetenv("XDG_STATE_HOME");
 }
 

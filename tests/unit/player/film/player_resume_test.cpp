@@ -93,8 +93,13 @@ TEST_F(ResumeTest, OfADamagedFileWhatMakesSenseIsKept) {
 
 TEST_F(ResumeTest, WhereNothingCanBeWrittenItGoesOnWithout) {
   Resume resume("/proc/nowhere/resume.json", files_);
+  EXPECT_TRUE(resume.isKept()) << "nothing to write";
   resume.keep("a", mediaTime(10));
   EXPECT_EQ(at(resume, "a"), 10);
+  EXPECT_FALSE(resume.isKept());
+  Resume other(path_, files_);
+  other.keep("a", mediaTime(10));
+  EXPECT_TRUE(other.isKept());
 }
 
 // Killed at any moment, the file is the old one or the new one.
@@ -123,11 +128,11 @@ TEST_F(ResumeTest, TheServicesFolderGoesBeforeThePersons) {
   EXPECT_EQ(Resume::defaultPath(), "/state/relievo/resume.json");
   ::setenv("STATE_DIRECTORY", "/var/lib/relievo", 1);
   EXPECT_EQ(Resume::defaultPath(), "/var/lib/relievo/resume.json");
-}
-
-}  // namespace
-}  // namespace relievo
   for (const char* name : {"XDG_STATE_HOME", "STATE_DIRECTORY"}) ::setenv(name, "state", 1);
   EXPECT_EQ(Resume::defaultPath(), "/home/you/.local/state/relievo/resume.json") << "relative ones are ignored";
   ::setenv("HOME", ".", 1);
   EXPECT_EQ(Resume::defaultPath(), "");
+}
+
+}  // namespace
+}  // namespace relievo
