@@ -93,6 +93,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   av_dict_free(&options);
   if (opened < 0 && file != nullptr) closeLocalFile(file);
   if (opened < 0) {
+    noteLost();
     if (lost_ > 0 && !watch_.cancelled()) tellLost(first_lost_);
     const bool no_part = lost_ > 0 && !any_part_;
     return std::unexpected(watch_.explain(no_part ? kNoParts : refusal(*address, opened, words.last())));
@@ -116,6 +117,7 @@ int Input::readFrame(AVFormatContext& container, AVPacket& packet) {
   LibraryWords words;
   words.listenTo(container);
   const int got = av_read_frame(&container, &packet);
+  if (got == AVERROR_EOF) noteLost();
   doubtful_ = words.containerWarned() || (got < 0 ? doubtful_ : isUnsure(packet.pos));
   if (got >= 0 && doubtful_) packet.opaque = this;
   return got;
@@ -151,11 +153,13 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
                        AVDictionary** options) {
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
+  if (self.missing_ != url) self.noteLost();
   const int opened = self.openAny(context, file, url, flags, options);
   if (opened >= 0) {
     self.any_part_ = self.any_part_ || (self.url_ != url && !isList(url));
-    self.last_lost_.clear();
-  } else if (!self.watch_.cancelled()) self.noteLost(url);
+    self.in_gap_ = false;
+    self.missing_.clear();
+  } else if (!self.watch_.cancelled() && self.url_ != url) self.missing_ = url;
   return opened;
 }
 
@@ -170,11 +174,13 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   return opened ? 0 : codeOf(opened.error());
 }
 
-// FFmpeg skips segments of a list that it cannot open; some it tries twice. A film that it opens itself is no part.
-void Input::noteLost(const char* part) {
-  if (last_lost_ == part || url_ == part) return;
-  if (any_part_ && last_lost_.empty()) ++losses_;  // before the first part there is no gap
-  last_lost_ = part;
+// FFmpeg skips segments of a list that it cannot open. One that it has asked for ahead it asks for again in time, so a
+// missing part is lost when FFmpeg goes on to another or to the end.
+void Input::noteLost() {
+  if (missing_.empty()) return;
+  const std::string part = std::exchange(missing_, {});
+  if (any_part_ && !in_gap_) ++losses_;  // before the first part there is no gap
+  in_gap_ = true;
   ++lost_;
   if (lost_ == 1) first_lost_ = part;
   if (opened_ && isTold(lost_)) tellLost(part);

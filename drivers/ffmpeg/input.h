@@ -41,7 +41,8 @@ class Input {
   void beginElsewhere() noexcept {
     losses_ = 0;
     any_part_ = false;
-    last_lost_.clear();
+    in_gap_ = false;
+    missing_.clear();
   }
   // As av_read_frame, of the container that was opened here.
   int readFrame(AVFormatContext& container, AVPacket& packet);
@@ -61,7 +62,7 @@ class Input {
   static int openCounted(AVFormatContext* context, AVIOContext** file, const char* url, int flags,
                          AVDictionary** options);
   int openAny(AVFormatContext* context, AVIOContext** file, const char* url, int flags, AVDictionary** options);
-  void noteLost(const char* part);
+  void noteLost();
   void tellLost(const std::string& part) const;
   [[nodiscard]] bool isUnsure(std::int64_t place) const noexcept;
   static int closeAny(AVFormatContext* context, AVIOContext* file);
@@ -73,9 +74,10 @@ class Input {
   bool reads_files_ = false;
   int opens_ = 0;
   bool opened_ = false;
+  std::string missing_;  // the part that could not be opened just now
   std::string first_lost_;
-  std::string last_lost_;  // empty once a part could be opened
-  unsigned lost_ = 0;      // parts that could not be opened
+  bool in_gap_ = false;  // until a part can be opened
+  unsigned lost_ = 0;    // parts that could not be opened
   unsigned losses_ = 0;
   bool any_part_ = false;  // could be opened, since then
   bool doubtful_ = false;

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -103,6 +104,21 @@ TEST_F(Playlists, PartsThatABusyServerRefusesAreAskedForAgain) {
   write("film.m3u8", "part.ts");
   EXPECT_EQ(packetsOf(server.url("film.m3u8")), 48u);
   EXPECT_THAT(server.requests(), testing::IsSupersetOf({"GET /part.ts 503", "GET /part.ts 200"}));
+}
+
+// FFmpeg asks for the next part ahead, and for one that is refused again in time.
+TEST_F(Playlists, APartThatComesLateIsNotCalledLost) {
+  test::HttpServer server(at(""));
+  std::filesystem::copy(at("part.ts"), at("next.ts"));
+  write("film.m3u8", "part.ts\n#EXTINF:1.6,\nnext.ts");
+  const auto told = [&](int refusals) {
+    server.busy["next.ts"] = refusals;
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(packetsOf(server.url("film.m3u8")), refusals < 9 ? 96u : 48u);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(told(3), testing::Not(HasSubstr("left out")));
+  EXPECT_THAT(told(9), HasSubstr("next.ts cannot be opened and is left out\n"));
 }
 
 // Formats that are lists of addresses, or that open ports, are allowed only in files.
