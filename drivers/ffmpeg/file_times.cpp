@@ -109,8 +109,19 @@ Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& en
   return page.size() > 0 && some.end() - page.begin() > 5 && (page.begin()[5] & kLast) == 0 ? end.picture : Duration(0);
 }
 
-// A GIF file without its trailer behind the end of a block (GIF89a, 15 and 27). Other bytes may follow it.
+// How long the bytes that were not read would last, at the mean bit rate.
+Duration restOf(const FileEnd::Reached& end) noexcept {
+  const auto rest = static_cast<double>(end.bytes - end.read), read = static_cast<double>(end.read);
+  return fromSeconds(toSeconds(end.latest) * rest / read);
+}
+
+// A GIF file without its trailer behind the end of a block (GIF89a, 15 and 27), which other bytes may follow, or one in
+// which no block follows the picture that was read last: FFmpeg ends there.
 Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  constexpr std::array<std::uint8_t, 3> kBlocks{0x21, 0x2c, 0x3b};
+  std::array<std::uint8_t, 1> next{};
+  if (end.read > 0 && readAt(context, end.read, next) && std::ranges::find(kBlocks, next[0]) == kBlocks.end())
+    return restOf(end);
   constexpr std::array<std::uint8_t, 2> kEnd{0, 0x3b};
   std::array<std::uint8_t, 256> tail{};
   const std::span some =
@@ -251,11 +262,10 @@ void FileEnd::reach(const AVFormatContext& context, bool doubtful) noexcept {
 // The time for which the bytes behind the last packet would last, at the mean bit rate, if they were never written or
 // cannot be read.
 Duration FileEnd::unread(const AVFormatContext& context, bool unreadable) const noexcept {
-  const auto& [latest, picture, read, bytes] = reached_;
-  const std::int64_t rest = bytes - read;
-  if (read <= 0 || rest < bytes / 50) return Duration(0);
+  const std::int64_t bytes = reached_.bytes, rest = bytes - reached_.read;
+  if (reached_.read <= 0 || rest < bytes / 50) return Duration(0);
   if (!unreadable && (rest < kTailBytes || !endsInZeros(context, bytes))) return Duration(0);
-  return fromSeconds(toSeconds(latest) * static_cast<double>(rest) / static_cast<double>(read));
+  return restOf(reached_);
 }
 
 }  // namespace relievo::ffmpeg

@@ -176,6 +176,21 @@ TEST(FfmpegSource, TellsThatAFileEndsWithinItsLastPacket) {
   }
 }
 
+TEST(FfmpegSource, TellsHowMuchIsMissingBehindAHoleInAGif) {
+  TemporaryFolder folder;
+  const std::string make = "cd '" + folder / "" + "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=d=3:r=10 a.gif";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  const auto bytes = static_cast<std::streamoff>(std::filesystem::file_size(folder / "a.gif"));
+  std::fstream file(folder / "a.gif", std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(bytes / 2);
+  file << std::string(static_cast<std::size_t>(bytes / 10), '\0') << std::flush;
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.gif").has_value());
+  const std::size_t pictures = readAll(*source).size();
+  EXPECT_LT(pictures, 30U);
+  EXPECT_NEAR(toSeconds(source->missing()), 3 - 0.1 * static_cast<double>(pictures), 0.5);
+}
+
 // A picture lasts 1 s. FLV counts its length from the first decoding time, WMV says no picture's length.
 TEST(FfmpegSource, AWholeFilmOfOnePictureASecondLacksNothing) {
   TemporaryFolder folder;
