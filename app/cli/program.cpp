@@ -12,6 +12,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
+#include <system_error>
 
 #include "platform/log.h"
 
@@ -31,6 +33,28 @@ void endNow(int number) {
 
 void onSignal(int number) {
   if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
+}
+
+int tellExhausted(const std::exception& error) {
+  log(LogLevel::Error, error.what(), "the system is out of resources; close other programs and try again");
+  return kExitFailed;
+}
+
+// What a thread other than the first has not caught. All but a lack of memory or threads is a fault of the program.
+[[noreturn]] void onUncaught() noexcept {
+  std::set_terminate(std::abort);
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc& error) {
+    if (auto* const act = last_act.load()) act();
+    std::_Exit(tellExhausted(error));
+  } catch (const std::system_error& error) {
+    if (auto* const act = last_act.load()) act();
+    std::_Exit(tellExhausted(error));
+  } catch (...) {
+    std::abort();
+  }
+  std::abort();
 }
 
 // Otherwise a file that is opened later would get the number of a closed stream, and its messages.
@@ -98,13 +122,13 @@ int runProgram(const char* name, const std::function<int()>& body) noexcept {
   fillClosedStreams();
   boundDescriptors();
   setLogProgram(name);
+  std::set_terminate(onUncaught);
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, not the end of the program
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error too
   try {
     return afterOutput(body());
   } catch (const std::exception& error) {
-    log(LogLevel::Error, error.what(), "the system is out of resources; close other programs and try again");
-    return kExitFailed;
+    return tellExhausted(error);
   }
 }
 

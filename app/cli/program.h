@@ -30,10 +30,10 @@ inline int tell(const Failure& failure) {
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // Runs the body of a main, which returns the exit code. `name` (a literal) starts each line on stderr. Exceptions (out
-// of memory, out of threads) and a failed write to standard output become ordinary failures; it is no failure that the
-// reader of a pipe leaves early, as `head` does. Writes to closed pipes or beyond the file size limit fail instead of
-// ending the program. Streams that are closed stay so for everybody: no file that is opened later takes their place. At
-// most 1024 files are open at once.
+// of memory, out of threads), on other threads too, and a failed write to standard output become ordinary failures; it
+// is no failure that the reader of a pipe leaves early, as `head` does. Writes to closed pipes or beyond the file size
+// limit fail instead of ending the program. Streams that are closed stay so for everybody: no file that is opened later
+// takes their place. At most 1024 files are open at once.
 [[nodiscard]] int runProgram(const char* name, const std::function<int()>& body) noexcept;
 
 }  // namespace relievo

@@ -8,6 +8,10 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <thread>
 
 #include "app/cli/program.h"
 
@@ -29,6 +33,19 @@ TEST(ProgramDeathTest, ALibraryThatEndsTheProgramDoesNotLeaveTheMotorsOn) {
 TEST(ProgramDeathTest, NeitherDoesASecondSignal) {
   EXPECT_EXIT((begin(), std::raise(SIGTERM), std::raise(SIGTERM), ::pause()), testing::KilledBySignal(SIGTERM),
               "^quiet$");
+}
+
+TEST(ProgramDeathTest, AThreadWithoutMemoryEndsTheProgramWithALine) {
+  const auto run = [](const std::function<void()>& work) {
+    return runProgram("relievo", [&] {
+      begin();
+      std::thread(work).join();
+      return kExitDone;
+    });
+  };
+  EXPECT_EXIT(run([] { throw std::bad_alloc(); }), testing::ExitedWithCode(kExitFailed),
+              "^quietrelievo: std::bad_alloc: the system is out of resources; .*\n$");
+  EXPECT_EXIT(run([] { throw std::logic_error("a fault"); }), testing::KilledBySignal(SIGABRT), "quiet");
 }
 
 // Otherwise a film that is opened later would get the number of standard output, and printed lines would go into it.
