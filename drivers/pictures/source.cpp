@@ -193,6 +193,7 @@ class PicturesSource final : public MediaSource {
       if (!bytes && endsReading(bytes.error())) return std::unexpected(bytes.error());
       if (!bytes || (*bytes)->empty()) {
         countMissed(1);
+        ++lost_[static_cast<std::size_t>(entry.stream)];
         tellMissed(pathOf(entry), bytes ? "is empty" : bytes.error().message);
         continue;
       }
@@ -209,6 +210,7 @@ class PicturesSource final : public MediaSource {
   // The last picture of each stream at or before the target comes first, then what follows the target.
   Result<void> seekTo(MediaTime target) override {
     if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while seeking");
+    lost_ = {};
     const auto after = std::ranges::upper_bound(entries_, target.time_since_epoch(), {}, &Entry::time);
     next_ = static_cast<std::size_t>(after - entries_.begin());
     reached_.clear();
@@ -225,6 +227,10 @@ class PicturesSource final : public MediaSource {
     entries_.clear();
     reached_.clear();
     next_ = 0;
+    lost_ = {};
+  }
+  [[nodiscard]] Duration missingTime() const noexcept override {
+    return recording_.period * std::max(lost_[0], lost_[1]);
   }
   void interrupted() noexcept override { cancelled_ = true; }
 
@@ -234,6 +240,7 @@ class PicturesSource final : public MediaSource {
   std::vector<Entry> entries_;
   std::vector<Entry> reached_;  // by a seek, the next one last
   std::size_t next_ = 0;
+  std::array<int, 2> lost_{};  // of each stream, since the last seek
 };
 
 }  // namespace

@@ -284,6 +284,7 @@ TEST_F(Pictures, OneThatHasGoneIsPassedOverNamedAndCounted) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("2.png: cannot be opened"));
   EXPECT_EQ(source->missedPictures(), 1u);
   EXPECT_FALSE(*source->read());
+  EXPECT_EQ(source->missing(), 40ms);
 }
 
 // The file is sparse: it takes no space on the disk.
@@ -345,6 +346,5 @@ TEST_F(Pictures, WhatTheyAreIsToldFromNamesAlone) {
   }
   EXPECT_THAT(read(odd).color, ElementsAre("0 50%d.png")) << "a file is a file whatever its name looks like";
 }
-
 }  // namespace
 }  // namespace relievo
