@@ -134,6 +134,11 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
     if (packed.gray == GrayFrom::Red) clues.pictures.merge(redAsLuma(look));
   }
   clues.why.push_back(std::move(found->why));
+  if (found->parted) {
+    info.notes.push_back(
+        "a part of the colour looks like depth too: the film may show three pictures or more; keep two of one size, "
+        "such as ffmpeg -i FILE -vf crop=WIDTH:HEIGHT:0:0 -crf 12 OUT.mkv");
+  }
 }
 
 // Returns the first depth picture with its samples in order; the order may be found only from the picture itself.

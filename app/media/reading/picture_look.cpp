@@ -110,6 +110,18 @@ std::optional<FoundPacking> found(const Frame& picture, const Frame& beside, boo
                             100 * half.vivid, 100 * other.vivid)};
 }
 
+// True if one end of the half that is not depth is depth too: three pictures in a row, or two by two.
+bool isParted(const Frame& colored) {
+  for (const auto& [packing, between] : {std::pair{Packing::SideBySide, colored.width / 3}, {Packing::TopBottom, 0}}) {
+    const auto ends = halvesOf(colored, packing, between);
+    if (!ends) continue;
+    if (found(ends->first, ends->second, false, packing, "") || found(ends->second, ends->first, false, packing, "")) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 PictureColor colorAt(const Frame& f, int c, int r) noexcept {
@@ -264,8 +276,12 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
     const auto halves = halvesOf(picture, way.second, seam);
     if (!halves) continue;
     const bool breaks = seam > 0 || breaksInTheMiddle(picture, beside);
-    if (auto is = found(halves->second, halves->first, breaks, way.second, way.second_where)) return is;
-    if (auto is = found(halves->first, halves->second, breaks, way.first, way.first_where)) return is;
+    auto is = found(halves->second, halves->first, breaks, way.second, way.second_where);
+    const Frame& colored = is ? halves->first : halves->second;
+    if (!is) is = found(halves->first, halves->second, breaks, way.first, way.first_where);
+    if (!is) continue;
+    is->parted = isParted(colored);
+    return is;
   }
   return std::nullopt;
 }

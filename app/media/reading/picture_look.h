@@ -61,7 +61,8 @@ struct FoundPacking {
   Packing packing = Packing::Tracks;
   DepthCode code = DepthCode::Luma;
   GrayFrom gray = GrayFrom::Luma;
-  std::string why;  // one line
+  std::string why;      // one line
+  bool parted = false;  // a part of the half that is not depth looks like depth too: a third picture
 };
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
 // hues. Nullopt if the halves do not differ that clearly.

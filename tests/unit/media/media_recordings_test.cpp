@@ -213,6 +213,26 @@ TEST(Recordings, EveryPartSaysWhoSaidIt) {
   EXPECT_THAT(partLines(shown.info.reading), Contains("unit=1: first picture, likely"));
 }
 
+// Three pictures in a row or four in a square: one of the halves is both colour and depth.
+TEST(Recordings, AThirdPictureIsTold) {
+  const TemporaryFolder folder;
+  const auto gray = [](int c, int r) {
+    const double shade = 0.2 + 0.6 * r / kSceneRows + 0.1 * c / kSceneCols;
+    return std::array{shade, shade, shade};
+  };
+  const auto expect = [&](const char* name, bool depth_first, const auto& is_colored, bool told) {
+    const Half colored{[&](int c, int r) { return is_colored(c, r) ? photoOf(c, r) : gray(c, r); }}, depth{gray};
+    makeHalves(folder / name, true, depth_first ? depth : colored, depth_first ? colored : depth);
+    const FilmInfo info = open({.url = folder / name}).info;
+    EXPECT_EQ(info.packing, depth_first ? Packing::SideBySideDepthFirst : Packing::SideBySide) << name;
+    EXPECT_EQ(testing::Matches(Contains(HasSubstr("three pictures")))(info.notes), told) << name;
+  };
+  expect("pair.mp4", false, [](int, int) { return true; }, false);
+  expect("row.mp4", false, [](int c, int) { return 3 * c < 2 * kSceneCols; }, true);
+  expect("depth-first.mp4", true, [](int c, int) { return 3 * c > kSceneCols; }, true);
+  expect("square.mp4", false, [](int, int r) { return 2 * r < kSceneRows; }, true);
+}
+
 // Its colour is the depth as gray; its maker has told whether the two are alike otherwise.
 TEST(Recordings, AnAuthorsFilmOfDepthAloneIsNotDoubted) {
   const TemporaryFolder folder;
