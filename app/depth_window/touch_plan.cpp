@@ -67,8 +67,11 @@ constexpr double kNoiseOverSlope = 0.578;
 // .65 with the width for the worst slope, .46 with that for half.
 constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5, kCodedOfWorst = 2;
 // In the smooth scenes of relievo-lab, rounded to 8 bits, no step is a ripple; after H.264 at crf 18 to 28 .0024 and
-// more are, but for a plane so shallow that it has hardly any steps.
-constexpr double kRipplesOfCodec = 0.001;
+// more are, but for a plane so shallow that it has hardly any steps. Waves of one or two steps have narrow tops, which
+// are ripples too: .022 and more. A codec that leaves as many leaves little else.
+constexpr double kRipplesOfCodec = 0.001, kRipplesOfWaves = 0.02;
+// Steps that a codec's own waves have at most, on smooth scenes at crf 23.
+constexpr double kCodedWaves = 2;
 // Smoothing flattens what is narrower than itself, with the fourth power of the width: .05 % of the force at 1 mm on
 // the sphere and the face of relievo-lab speed-accuracy (noise of 1 %, widths of 2.4 to 3.8 mm: .03 to .05 %).
 constexpr double kFlattening = 5e-4;
@@ -167,6 +170,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   const double stretch = std::sqrt(across.stretch2 / places);
   m.quantum_mm = stretch * quantum;
   m.noise_mm = stretch * noise;
+  m.waves_mm = wavesOf(frames, stepsUnderNoise(m), m.noise_mm, m.still);
   m.speed_mm_per_s =
       std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;
@@ -186,6 +190,15 @@ double noiseThrough(TimeLaw law, double carried_periods) {
   const double u = carried_periods;
   if (law == TimeLaw::Linear) return kLinearNoise + u + u * u;
   return law == TimeLaw::Mean ? kMeanNoise : law == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
+}
+
+bool isCoded(const ClipMeasure& m) {
+  const bool of_waves = m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > stepsUnderNoise(m);
+  return m.ripples > kRipplesOfCodec && !of_waves;
+}
+
+Waves reliefIn(const ClipMeasure& m) {
+  return isCoded(m) ? beyond(kCodedWaves * stepsUnderNoise(m), m.waves_mm) : m.waves_mm;
 }
 
 std::string reasonFor(const TouchPlan& plan, const LookAhead& ahead) {
@@ -234,20 +247,24 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   };
   // The error of the force's direction is the error of the slope.
   const double steps = stepsUnderNoise(m);
+  const Waves waves = reliefIn(m);
   const auto errorOf = [&](double w, double of_worst) {
     const double of_noise = kNoiseOverSlope * m.noise_mm * through * apart(w, kWideSamples) / (w * w);
-    return std::hypot(of_noise, of_worst * steps / (kStepsOverWorstSlope * w), kFlattening * w * w * w * w);
+    const double of_waves = fine ? 0 : flattenedBy(w, waves);
+    return std::hypot(of_noise, of_worst * steps / (kStepsOverWorstSlope * w),
+                      std::max(kFlattening * w * w * w * w, of_waves));
   };
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = kTimesTheNarrow * s.narrow_mm;
   double wider = s.wide_mm * kStepOfSearch;
-  const double of_worst = m.ripples > kRipplesOfCodec ? kCodedOfWorst : kExpectedOfWorst;
+  const double of_worst = isCoded(m) ? kCodedOfWorst : kExpectedOfWorst;
   while (wider <= kWidestMm && errorOf(wider, of_worst) < errorOf(s.wide_mm, of_worst)) {
     s.wide_mm = wider;
     wider *= kStepOfSearch;
   }
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
-  if (!fine) {
+  // Where the broad level's points lie on the waves' middle line, waves look straight.
+  if (!fine && greatest(waves) <= steps) {
     s.broad_mm = kBroadOverWide * s.wide_mm;
     const double samples = s.broad_mm / kSigmaPerPitch / apart(s.broad_mm, kBroadSamples);
     s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * through * std::sqrt(kBendVariance) / samples;

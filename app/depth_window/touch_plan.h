@@ -9,10 +9,11 @@
 #include "app/depth_window/felt_scale.h"
 #include "app/depth_window/look_ahead.h"
 #include "app/depth_window/surface_window.h"
+#include "app/depth_window/waves.h"
 
 namespace relievo {
 
-// Reads up to seventy thousand samples of each of a few frames; not for the real-time thread.
+// Reads up to two hundred thousand samples of each of a few frames; not for the real-time thread.
 struct ClipMeasure {
   int frames = 0;
   double quantum_mm = 0;      // smallest step between depth values, in mm
@@ -21,6 +22,7 @@ struct ClipMeasure {
   double flicker_mm = 0;      // standard deviation of what whole frames do at random (flickerMm)
   double edges = 0;           // share of the places beside a step of more than 3 mm
   double ripples = 0;         // share of the steps between samples that are ripples (ripplesOf)
+  Waves waves_mm{};           // relief that is fine for a wide smoothing (wavesOf)
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames
   bool still = false;         // no sampled place changes

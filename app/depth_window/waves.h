@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds relief so fine that a wide smoothing would flatten it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "app/depth_window/surface_window.h"
+
+namespace relievo {
+
+// Sizes of the blocks that are compared; waves of two to six blocks are found.
+inline constexpr std::array kWaveBlocksMm{2.2, 3.1};
+inline constexpr double kShareOfPlaces = 0.6;
+using Waves = std::array<double, kWaveBlocksMm.size()>;
+
+// For each size the fourth difference of the means of five blocks in a row, in mm, that kShareOfPlaces of the places do
+// not exceed, across or down, whichever is greater: 0 on every surface of the third order. The means are over all
+// frames. What codes of `step_mm` or noise may have made does not count: a difference between blocks that bend by a
+// step at most, and what differs as much from frame to frame as noise does, which is of `noise_mm` a sample at least;
+// `still`: the same in all frames. Nor do blocks with a hole or at an end of the range. Reads seventy thousand samples
+// of each frame for each size.
+[[nodiscard]] Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still);
+
+[[nodiscard]] inline double greatest(const Waves& waves) {
+  return std::ranges::max(waves);
+}
+// What is left of waves if something that has nothing to do with the relief has made this much of them.
+[[nodiscard]] Waves beyond(double mm, Waves waves);
+// The error in the slope of a surface with such waves that smoothing of a width leaves.
+[[nodiscard]] double flattenedBy(double width_mm, const Waves& waves);
+
+}  // namespace relievo
