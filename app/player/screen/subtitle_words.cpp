@@ -52,10 +52,16 @@ bool SubtitleWords::ready() {
 
 void SubtitleWords::add(Subtitle subtitle) {
   if (!subtitle.lines.empty()) return addLines(subtitle);
-  const auto after = std::ranges::upper_bound(with_pictures_, subtitle.begin, {}, &Subtitle::begin);
-  if (after != with_pictures_.begin() && std::prev(after)->begin == subtitle.begin) return;  // again, after a seek
-  with_pictures_.insert(after, std::move(subtitle));
-  if (with_pictures_.size() > kMostWithPictures) with_pictures_.pop_front();
+  const auto at = std::ranges::lower_bound(with_pictures_, subtitle.begin, {}, &Subtitle::begin);
+  if (at != with_pictures_.end() && at->begin == subtitle.begin) {
+    if (at->pictures.empty()) *at = std::move(subtitle);  // it takes the place of the end of the one before
+    return;                                               // else it comes again, after a seek
+  }
+  const bool is_late = 2 * (at - with_pictures_.begin()) >= std::ssize(with_pictures_);
+  with_pictures_.insert(at, std::move(subtitle));
+  if (with_pictures_.size() <= kMostWithPictures) return;
+  if (is_late) with_pictures_.pop_front();
+  else with_pictures_.pop_back();  // after a seek back it is the far ones that are read again
 }
 
 void SubtitleWords::addLines(const Subtitle& subtitle) {

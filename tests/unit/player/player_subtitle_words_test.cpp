@@ -96,6 +96,41 @@ TEST(SubtitleWords, PicturesOfWordsLieOnTheFilmsPictureUntilTheNext) {
   EXPECT_TRUE(words.pictures().empty());
 }
 
+Subtitle drawn(double begin_s, bool something = true) {
+  Subtitle subtitle{.begin = mediaTime(begin_s), .canvas_width = 640, .canvas_height = 360};
+  if (something) subtitle.pictures = {{.width = 8, .height = 8, .rgba = std::vector<std::uint8_t>(256, 255)}};
+  return subtitle;
+}
+
+TEST(SubtitleWords, OfManyPicturesThoseAroundThePlaceWhereTheFilmIsReadAreKept) {
+  SubtitleWords words;
+  const auto isShownAt = [&](double time_s) {
+    words.draw(kFrame, mediaTime(time_s));
+    return !words.pictures().empty();
+  };
+  const auto play = [&](int from_s, int to_s) {
+    for (int second = from_s; second < to_s; ++second) {
+      words.add(drawn(second));
+      words.add(drawn(second + 0.5, false));
+      EXPECT_TRUE(isShownAt(second + 0.2)) << second;
+      EXPECT_FALSE(isShownAt(second + 0.7)) << second;
+    }
+  };
+  play(0, 100);
+  play(20, 100);  // a seek back
+}
+
+TEST(SubtitleWords, APictureThatBeginsWhereTheOneBeforeEndsIsShown) {
+  for (const bool end_first : {true, false}) {
+    SubtitleWords words;
+    words.add(drawn(1));
+    words.add(drawn(2, !end_first));
+    words.add(drawn(2, end_first));
+    words.draw(kFrame, mediaTime(2.5));
+    EXPECT_EQ(words.pictures().size(), 1u);
+  }
+}
+
 TEST(SubtitleWords, LettersAndPicturesGrowAndShrink) {
   FONT_OR_SKIP();
   SubtitleWords words;
