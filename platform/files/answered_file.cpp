@@ -96,6 +96,7 @@ struct AnsweredFile::State {
     const ssize_t got = ::preadv2(fd.get(), &part, 1, static_cast<off_t>(offset), RWF_NOWAIT);
     const bool able = got >= 0 || (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL);
     at_once = able ? AtOnce::Yes : AtOnce::No;
+    if (got == 0 && !out.empty()) return std::nullopt;  // Linux 5.9 and 5.10: perhaps not the end (readv(2), BUGS)
     if (got >= 0) return static_cast<std::size_t>(got);
     if (!able || errno == EAGAIN || errno == EINTR) return std::nullopt;
     return noted({ErrorCode::Io, errno, kFailed});

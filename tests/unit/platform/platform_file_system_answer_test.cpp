@@ -14,6 +14,7 @@
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 
 namespace relievo {
 namespace {
@@ -137,6 +138,16 @@ TEST_F(AnsweredFileTest, GivesTheBytesOfAnyPart) {
   EXPECT_EQ(file->read(2'999'997, end), 3u);
   EXPECT_EQ(end[2], bytes.back());
   EXPECT_EQ(file->read(3'000'000, end), 0u);
+}
+
+TEST_F(AnsweredFileTest, DoesNotTakeWhatIsNotInMemoryForTheEnd) {
+  std::ofstream(at("a")) << "abc";
+  const auto file = AnsweredFile::open(at("a"));
+  ASSERT_TRUE(file);
+  std::vector<std::uint8_t> all(4);
+  test::memory_looks_ended = true;
+  EXPECT_EQ(file->read(0, all), 3u);
+  test::memory_looks_ended = false;
 }
 
 TEST_F(AnsweredFileTest, ReadsFilesOfTheKernel) {
