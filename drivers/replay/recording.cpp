@@ -72,6 +72,10 @@ bool isFinite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+bool isRate(double hz) {
+  return hz >= 1 && hz <= 1e5;
+}
+
 // The device's properties from the first row; nullopt if one is missing or impossible.
 std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cells) {
   const auto number = [&](std::string_view name) { return numberIn(cells, columnOf(names, name)); };
@@ -83,8 +87,10 @@ std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cell
                                   .max_stiffness_n_per_mm = number("max_stiffness_n_per_mm"),
                                   .rate_hz = number("rate_hz")};
   const glm::dvec3 room = device.workspace_max_mm - device.workspace_min_mm;
-  const bool whole = isFinite(room) && room.x > 0 && room.y > 0 && room.z > 0 && device.peak_force_n > 0 &&
-                     device.continuous_force_n > 0 && device.max_stiffness_n_per_mm > 0 && device.rate_hz > 0;
+  const auto is_sound = [](double value) { return std::isfinite(value) && value > 0; };
+  const bool whole = isFinite(room) && room.x > 0 && room.y > 0 && room.z > 0 && is_sound(device.peak_force_n) &&
+                     is_sound(device.continuous_force_n) && is_sound(device.max_stiffness_n_per_mm) &&
+                     isRate(device.rate_hz);
   return whole ? std::optional(device) : std::nullopt;
 }
 
@@ -141,7 +147,7 @@ class Reader {
   // If the file does not state the rate, it is the number of ticks over the recording's length, rounded.
   [[nodiscard]] Recording finish() && {
     const double rate = std::round(static_cast<double>(recording_.ticks.size() - 1) / (last_s_ - first_s_));
-    if (rate >= 1 && rate <= 1e5) recording_.capabilities.rate_hz = rate;
+    if (isRate(rate)) recording_.capabilities.rate_hz = rate;
     return std::move(recording_);
   }
 

@@ -50,6 +50,15 @@ TEST(Recording, WithoutTheDeviceItIsThePathInTheScene) {
   }
 }
 
+TEST(Recording, ADeviceThatCannotBeIsNotTaken) {
+  for (const char* device : {"8,2,1,inf", "8,2,1,1e300", "8,2,1,0.5", "inf,2,1,1000", "8,inf,1,1000", "8,2,inf,1000"}) {
+    const Recording recording = parsed(std::string(kDevice) + "0,9,9,9,1,2,3,0,1,-1,-1,-1,1,1,1," + device + "\n");
+    EXPECT_EQ(recording.ticks[0].position_mm, glm::dvec3(9)) << device;
+    EXPECT_EQ(recording.capabilities.rate_hz, 1000) << device;
+    EXPECT_EQ(recording.capabilities.peak_force_n, 8.5) << device;
+  }
+}
+
 TEST(Recording, APathHasAColumnOrderOfItsOwn) {
   EXPECT_EQ(parsed("z_mm,x_mm,y_mm\n3,1,2\n").ticks[0].position_mm, glm::dvec3(1, 2, 3));
   EXPECT_EQ(parsed("z_mm,x_mm,y_mm\n3,1,2\n").capabilities.rate_hz, 1000) << "no time, no rate";
