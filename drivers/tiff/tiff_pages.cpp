@@ -190,6 +190,7 @@ Result<std::vector<std::uint8_t>> Pages::page(const AnsweredFile& file, std::siz
     head.resize(kEntryBytes);
     order.put32(&head[4], entry.count);
     if (value->size() > entry.value.size()) {
+      if (page.size() + value->size() > kMostBytes) return damaged();  // many entries may give the same bytes
       page.resize(page.size() + page.size() % 2);
       order.put32(&head[8], static_cast<std::uint32_t>(page.size()));
       page.insert(page.end(), value->begin(), value->end());

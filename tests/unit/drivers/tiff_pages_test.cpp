@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <fstream>
 
+#include "drivers/tiff/tiff_pages.h"
+#include "tests/support/byte_writer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/failing_disk.h"
 #include "tests/support/film/float_tiff.h"
@@ -101,6 +103,23 @@ TEST(TiffPages, AreLostWhenTheDiskFails) {
   const auto source = drivers::makeMediaSource(path);
   ASSERT_TRUE(source->open(path));
   EXPECT_EQ(test::endOnFailingDisk(*source), ErrorCode::Lost);
+}
+
+// 600 entries give the same megabyte.
+TEST(TiffPages, ThatWouldFillTheMemoryAreDamaged) {
+  const test::TemporaryFolder folder;
+  constexpr std::uint32_t kEntries = 600, kMegabyte = 1 << 20;
+  test::ByteWriter file_bytes;
+  file_bytes.raw({"II*\0\x08\0\0\0", 8}).add(static_cast<std::uint16_t>(kEntries));
+  for (std::uint32_t i = 0; i < kEntries; ++i) {
+    file_bytes.add(static_cast<std::uint16_t>(40000 + i)).add(std::uint16_t{1}).add(kMegabyte).add(std::uint32_t{0});
+  }
+  std::ofstream(folder / "p.tif", std::ios::binary) << file_bytes.bytes() << std::string(kMegabyte, '\0');
+  const auto file = AnsweredFile::open(folder / "p.tif");
+  ASSERT_TRUE(file);
+  const auto pages = tiff::Pages::of(*file);
+  ASSERT_TRUE(pages);
+  EXPECT_EQ(pages->page(*file, 0).error().code, ErrorCode::Corrupt);
 }
 
 TEST(TiffPages, ThatFollowThemselvesEnd) {
