@@ -129,7 +129,7 @@ std::optional<Packet> packetOf(const PictureKind& kind, const PictureMessage& pi
   } else {
     if (picture.cols != kind.cols || picture.rows != kind.rows) return std::nullopt;
     const std::size_t row = std::size_t{kind.cols} * kind.pixel_bytes, step = picture.step_bytes;
-    if (step < row || step > bytes || bytes - row < step * (kind.rows - 1)) return std::nullopt;
+    if (step < row || step > bytes || bytes - row < std::uint64_t{step} * (kind.rows - 1)) return std::nullopt;
     for (std::size_t r = 1; r < kind.rows && step > row; ++r) std::memmove(data + r * row, data + r * step, row);
     bytes = row * kind.rows;
     if (picture.big_endian && kind.sample_bytes > 1) reverseSamples(data, bytes, kind.sample_bytes);
