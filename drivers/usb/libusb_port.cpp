@@ -107,7 +107,10 @@ class LibusbPort final : public UsbPort {
     exchanging_ = true;
     next_ = 0;
     for (Transfer& in : in_) {
-      if (auto queued = submit(in, id_.in_endpoint, kUsbPacketBytes); !queued) return queued;
+      if (auto queued = submit(in, id_.in_endpoint, kUsbPacketBytes); !queued) {
+        stopExchange();
+        return queued;
+      }
     }
     listing_.emplace(quiet_);
     return {};

@@ -10,7 +10,7 @@
 #include "drivers/falcon/falcon.h"
 #include "drivers/falcon/link.h"
 #include "tests/support/device/falcon_model.h"
-#include "tests/support/device/usb/plugged_usb.h"
+#include "tests/support/device/usb/umockdev_usb.h"
 #include "tests/support/device/usb/usb_kinds.h"
 
 namespace relievo {
@@ -224,6 +224,17 @@ TEST(LibusbPort, TakesEveryPacketInItsOrder) {
     else ASSERT_EQ(packet->data[0] | packet->data[1] << 8, next++);
   }
   EXPECT_EQ(next, 200);
+}
+
+TEST(LibusbPort, AfterAFailedStartTheKernelHasNothingOfIt) {
+  if (!test::machineIsMocked()) GTEST_SKIP() << test::kNoPlug;
+  Counter counter;
+  test::UmockdevUsb usb(counter, falcon::kUsbId);
+  const auto port = makeLibusbPort({falcon::kUsbId});
+  ASSERT_TRUE(port->open());
+  usb.refuseSubmit(2);
+  EXPECT_FALSE(port->startExchange({}));
+  EXPECT_EQ(usb.waiting(), 0u);
 }
 
 TEST(FalconUsb, LoadsItsFirmwareAlsoWhenTheFirstTryFailsInEachWayThatUsersReport) {

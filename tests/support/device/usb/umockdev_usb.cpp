@@ -117,6 +117,16 @@ void UmockdevUsb::unplugAfter(int requests) {
   requests_left_ = requests;
 }
 
+void UmockdevUsb::refuseSubmit(int number) {
+  const std::lock_guard guard(lock_);
+  submits_left_ = number;
+}
+
+std::size_t UmockdevUsb::waiting() {
+  const std::lock_guard guard(lock_);
+  return waiting_.size();
+}
+
 void UmockdevUsb::takesNothing() {
   const std::lock_guard guard(lock_);
   deaf_ = true;
@@ -168,6 +178,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
     case USBDEVFS_IOCTL:  // to give the interface back to a kernel driver: there is none
       return complete(-1, ENODATA);
     case USBDEVFS_SUBMITURB:
+      if (submits_left_ > 0 && --submits_left_ == 0) return complete(-1, ENOMEM);
       return submit(argument) ? complete(0) : complete(-1, ENOENT);
     case USBDEVFS_BULK:
       bulk(argument, client);

@@ -24,6 +24,10 @@ class UmockdevUsb final : public PluggedUsb {
   void plug() override;
   void unplug() override;
   void unplugAfter(int requests) override;
+  // The kernel does not accept the transfer of this number from now on.
+  void refuseSubmit(int number);
+  // Reads that the kernel has.
+  [[nodiscard]] std::size_t waiting();
   void takesNothing() override;
   void takesAgain() override;
   [[nodiscard]] std::mutex& lock() override { return lock_; }
@@ -48,6 +52,7 @@ class UmockdevUsb final : public PluggedUsb {
   std::mutex lock_;
   bool plugged_ = false;
   int requests_left_ = 0;  // until it is unplugged; 0: never
+  int submits_left_ = 0;   // until one is refused; 0: none is
   bool deaf_ = false;
   int unknown_ = 0;
   std::deque<Urb> waiting_, untaken_, done_;  // IN, OUT, and what may be reaped
