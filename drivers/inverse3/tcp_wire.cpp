@@ -85,7 +85,12 @@ class TcpWire final : public Wire {
     std::packaged_task<Addresses()> task(
         [host = address_.host, port = std::to_string(address_.port)] { return lookUp(host, port); });
     auto found = task.get_future();
-    std::thread(std::move(task)).detach();
+    try {
+      std::thread(std::move(task)).detach();
+    } catch (const std::system_error& error) {
+      return fail(ErrorCode::Exhausted, "the limit on processes is reached; raise it (ulimit -u) or end some",
+                  error.code().value());
+    }
     for (int i = 0; i < kMostLooks; ++i) {
       if (cancelled) return cancelledOpening();
       if (found.wait_for(kBetweenLooks) == std::future_status::ready) return found.get();

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -22,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostThreads = 64;
+constexpr const char* kNoThread = "the limit on processes is reached; raise it (ulimit -u) or end some";
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at the flag of CancelsAnswers
 constexpr auto kGrace = std::chrono::milliseconds(100);  // in which a file system that works answers
 
@@ -103,19 +105,24 @@ struct FileSystemAnswers::Shared {
     return std::ranges::any_of(stuck, [&](const auto& task) { return isIn(path, task->stuck_at); });
   }
 
-  // False if there are too many threads, all of them busy.
-  static bool give(const std::shared_ptr<Shared>& self, std::shared_ptr<Task> task) {
+  static Result<void> addThread(const std::shared_ptr<Shared>& self) try {
+    if (self->threads == kMostThreads) return std::unexpected(kNoAnswer);
+    const SignalsBlocked blocked;
+    std::thread([self] { serve(*self); }).detach();
+    ++self->threads;
+    ++self->idle;
+    return {};
+  } catch (const std::system_error& error) {
+    return fail(ErrorCode::Exhausted, kNoThread, error.code().value());
+  }
+
+  // Fails if all threads are busy, and no other one can be started.
+  static Result<void> give(const std::shared_ptr<Shared>& self, std::shared_ptr<Task> task) {
     const bool one_free = self->idle > self->queue.size();
-    if (!one_free && self->threads == kMostThreads) return false;
+    if (auto added = one_free ? Result<void>() : addThread(self); !added) return added;
     self->queue.push_back(std::move(task));
-    if (!one_free) {
-      const SignalsBlocked blocked;
-      std::thread([self] { serve(*self); }).detach();
-      ++self->threads;
-      ++self->idle;
-    }
     self->asked.notify_one();
-    return true;
+    return {};
   }
 
   static void serve(Shared& self) {
@@ -164,7 +171,8 @@ Result<void> FileSystemAnswers::ask(const std::string& path, std::function<void(
   task->question = std::move(question);
   const std::string full = fullPath(path);
   std::unique_lock lock(shared_->mutex);
-  if (shared_->isStuck(full) || !Shared::give(shared_, task)) return std::unexpected(kNoAnswer);
+  if (shared_->isStuck(full)) return std::unexpected(kNoAnswer);
+  if (auto given = Shared::give(shared_, task); !given) return given;
   if (shared_->wait(lock, *task)) return {};
   if (cancels != nullptr && *cancels) {
     cancelled_before = true;

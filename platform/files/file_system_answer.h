@@ -29,10 +29,12 @@ class FileSystemAnswers {
   FileSystemAnswers& operator=(const FileSystemAnswers&) = delete;
 
   // Runs `question`, which concerns the file `path`, and waits for its end. Timeout after the patience, or at once
-  // while an earlier question about the same mount is still unanswered after that time; Cancelled (CancelsAnswers).
+  // while an earlier question about the same mount is still unanswered after that time; Cancelled (CancelsAnswers);
+  // Exhausted if no thread can be started: then `question` does not run.
   // After an error `question` may still run, now or later: it must own all that it uses.
   [[nodiscard]] Result<void> ask(const std::string& path, std::function<void()> question);
-  // Starts `act`, such as a close, without waiting for it. The result can be passed to `giveUp`.
+  // Starts `act`, such as a close, without waiting for it; later if all threads are busy. The result can be passed to
+  // `giveUp`.
   std::shared_ptr<void> leave(std::function<void()> act);
   // Until `act` ends, which `leave` has started, questions about the mount of `path` fail at once.
   void giveUp(const std::string& path, const std::shared_ptr<void>& act);

@@ -15,6 +15,7 @@
 #include "platform/files/file_system_answer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/failing_disk.h"
+#include "tests/support/machine/no_threads.h"
 
 namespace relievo {
 namespace {
@@ -115,6 +116,21 @@ TEST(FileSystemAnswers, AreRefusedWhenTooManyThreadsWait) {
     }));
   }
   EXPECT_LE(*begun, 64);
+}
+
+TEST(FileSystemAnswers, AreRefusedWhereNoThreadCanBeStarted) {
+  FileSystemAnswers answers(kLong);
+  const auto asked = std::make_shared<std::atomic<int>>(0), left = std::make_shared<std::atomic<int>>(0);
+  {
+    const test::NoThreads none;
+    const auto refused = answers.ask("/a", [asked] { ++*asked; });
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::Exhausted);
+    answers.leave([left] { ++*left; });
+  }
+  ASSERT_TRUE(answers.ask("/a", [] {}));
+  EXPECT_EQ(*asked, 0) << "its caller has gone";
+  EXPECT_EQ(*left, 1) << "later";
 }
 
 class AnsweredFileTest : public testing::Test {

@@ -10,6 +10,7 @@
 #include "platform/allocation_counter.h"
 #include "tests/rt/forbidden_calls.h"
 #include "tests/support/device/inverse3_server.h"
+#include "tests/support/machine/no_threads.h"
 
 namespace relievo {
 namespace {
@@ -105,6 +106,12 @@ TEST_F(Inverse3Loopback, WhatIsNoSuchServiceIsRefused) {
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
   web.join();
+}
+
+TEST_F(Inverse3Loopback, AtTheLimitOfProcessesOpeningFails) {
+  const auto device = deviceAt({.host = "127.0.0.1", .port = 1});
+  const test::NoThreads none;
+  EXPECT_EQ(device->open().error().code, ErrorCode::Exhausted);
 }
 
 // It listens, but never answers.
