@@ -102,7 +102,9 @@ Result<std::string> Channel::answerTo(const std::string& request, const std::ato
 Result<void> Channel::listen() RELIEVO_RT {
   if (reader_.broken()) return fail(ErrorCode::Lost, "the Haply Inverse service sends no WebSocket frames");
   if (ended_) return fail(ErrorCode::Lost, "the Haply Inverse service has ended the connection");
-  const auto bytes = wire_->receive(reader_.room());
+  const auto room = reader_.room();
+  if (room.empty()) return {};  // the messages that have come are read first
+  const auto bytes = wire_->receive(room);
   if (!bytes) return std::unexpected(bytes.error());
   reader_.received(*bytes);
   return {};

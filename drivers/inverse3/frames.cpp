@@ -34,10 +34,10 @@ void FrameReader::clear() RELIEVO_RT {
 }
 
 std::span<char> FrameReader::room() RELIEVO_RT {
+  if (broken_) begin_ = end_;  // nothing of it will be read
   if (begin_ > 0) std::memmove(bytes_.data(), bytes_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (end_ == bytes_.size()) end_ = 0;  // only after a breach: a whole message always fits
   return std::span(bytes_).subspan(end_);
 }
 

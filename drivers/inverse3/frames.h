@@ -26,7 +26,8 @@ class FrameReader {
   static constexpr std::size_t kMostMessage = 32 * 1024;
 
   void clear() RELIEVO_RT;
-  // The memory for the next bytes; never empty. What `next` returned becomes invalid.
+  // The memory for the next bytes; empty until `next` has taken messages that have arrived whole. What `next` returned
+  // becomes invalid.
   [[nodiscard]] std::span<char> room() RELIEVO_RT;
   void received(std::size_t bytes) RELIEVO_RT { end_ += bytes; }
   // The next message, valid until the next call of `room` or `next`; empty until it has arrived whole.

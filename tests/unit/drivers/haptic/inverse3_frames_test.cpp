@@ -83,6 +83,30 @@ TEST(Inverse3Frames, AMessageOfAnyLengthUpToTheMostIsRead) {
   }
 }
 
+// More messages come at once than are taken, and fill the reader.
+TEST(Inverse3Frames, OnesThatWaitAreNotThrownAway) {
+  constexpr int kMessages = 3000;
+  std::string stream;
+  for (int i = 0; i < kMessages; ++i) stream += serverFrame(1, std::to_string(i) + std::string(70, 'j'));
+  const auto reader = std::make_unique<FrameReader>();
+  bool full = false;
+  std::size_t at = 0;
+  for (int i = 0; i < kMessages; ++i) {
+    if (i % 16 == 0) {
+      const auto room = reader->room();
+      const std::size_t count = std::min(room.size(), stream.size() - at);
+      std::copy_n(stream.begin() + static_cast<std::ptrdiff_t>(at), count, room.begin());
+      reader->received(count);
+      at += count;
+      full = full || reader->room().empty();
+    }
+    const auto message = reader->next();
+    ASSERT_TRUE(message) << i;
+    ASSERT_EQ(message->payload, std::to_string(i) + std::string(70, 'j'));
+  }
+  EXPECT_TRUE(full);
+}
+
 TEST(Inverse3Frames, WhatBreaksTheRulesEndsTheReading) {
   const std::string half(20000, 'x');
   const std::string breaches[] = {
