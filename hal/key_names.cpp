@@ -226,7 +226,8 @@ std::string essence(std::string_view word) {
 }  // namespace
 
 std::optional<std::uint16_t> keyCode(std::string_view name) noexcept {
-  const std::uint16_t held = takeHeld(name, kCtrl, kWithCtrl) | takeHeld(name, kShift, kWithShift);
+  std::uint16_t held = takeHeld(name, kCtrl, kWithCtrl);
+  held |= takeHeld(name, kShift, kWithShift);
   name = withoutPrefix(name);
   for (const KeyName& key : kKeys) {
     if (equalInUpperCase(name, key.name)) return key.code | held;
