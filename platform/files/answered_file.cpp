@@ -19,6 +19,8 @@
 namespace relievo {
 namespace {
 
+static_assert(sizeof(off_t) == 8, "build with _FILE_OFFSET_BITS=64");  // else films of over 2 GiB are refused
+
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 20;  // bytes of one question
 constexpr const char* kFailed = "reading failed; check the disk";
 
