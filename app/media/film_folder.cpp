@@ -35,12 +35,13 @@ FilesByStem byStem(const std::vector<std::string>& names) {
 std::vector<std::string> depthStems(const std::string& stem) {
   std::vector<std::string> stems;
   for (const std::string depth : {"depth", "disparity", "disp"}) {
-    for (const char* const between : {"-", "_", "."}) stems.push_back(stem + between + depth);
+    for (const char* const between : {"-", "_", "."})
+      stems.push_back(print("%s%s%s", stem.c_str(), between, depth.c_str()));
     for (const std::string word : {"color", "colour", "rgb", "image", "left"}) {
       const std::size_t at = stem.find(word);
       if (at != stem.npos) stems.push_back(std::string(stem).replace(at, word.size(), depth));
     }
-    for (const char* const between : {"-", "_"}) stems.push_back(depth + between + stem);
+    for (const char* const between : {"-", "_"}) stems.push_back(print("%s%s%s", depth.c_str(), between, stem.c_str()));
   }
   for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
     if (!stem.ends_with(of_source)) continue;
