@@ -99,6 +99,7 @@ int runTraceCommand(const TraceOptions& options) {
               summary->contact_ticks, summary->max_force_n);
   std::printf("parts: %s\n", summary->parts.c_str());
   if (!summary->plan.empty()) std::printf("plan: %s\n", summary->plan.c_str());
+  for (const std::string& doubt : summary->doubts) std::printf("doubt: %s\n", doubt.c_str());
   return kExitDone;
 }
 

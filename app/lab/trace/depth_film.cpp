@@ -3,9 +3,11 @@
 #include "app/lab/trace/depth_film.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/tracks/track_reader.h"
 #include "app/scene/height_field.h"
@@ -73,6 +75,7 @@ Outcome<void> DepthFilm::open() {
   if (tracks_->paired) {
     calibration_ = tracks_->pairs.info().calibration.calibration;
     material_ = tracks_->pairs.info().material;
+    doubts_ = tracks_->pairs.info().reading.doubts;
     return {};
   }
   material_ = layered(source.material, materialFromTags(clues.tags).value_or(Material{}));
@@ -84,9 +87,11 @@ Outcome<void> DepthFilm::open() {
   const auto ordered = inOrder(frame, order_);
   if (!ordered) return failOn(source.url, ordered.error());
   tracks_->first = *ordered;
-  const auto meaning = readMeaning(clues, kind, *ordered);
+  auto meaning = readMeaning(clues, kind, *ordered);
   if (!meaning) return failOn(source.url, meaning.error());
   calibration_ = meaning->calibration.calibration;
+  doubts_ = std::move(meaning->reading.doubts);
+  std::ranges::move(doubtsOf(*ordered, calibration_), std::back_inserter(doubts_));
   return {};
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/depth_window/surface_window.h"
 #include "app/depth_window/window_frames.h"
@@ -31,6 +32,8 @@ class DepthFilm {
   [[nodiscard]] Outcome<const SurfaceWindow*> windowAt(double t_s);
   [[nodiscard]] const DisplayVolume& volume() const noexcept { return volume_; }
   [[nodiscard]] const Material& material() const noexcept { return material_; }
+  // Why the depth may be read wrongly, one line each.
+  [[nodiscard]] const std::vector<std::string>& doubts() const noexcept { return doubts_; }
 
  private:
   struct Tracks;
@@ -42,6 +45,7 @@ class DepthFilm {
   DisplayVolume volume_;
   DepthCalibration calibration_;
   Material material_;
+  std::vector<std::string> doubts_;
   SampleOrder order_ = SampleOrder::AsStored;  // of a single track
   WindowFrames frames_;
   std::optional<TimedSurface> newest_;

@@ -106,6 +106,7 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   const MonotonicClock clock;
   TraceSummary summary;
   summary.parts = describe(*parts);
+  summary.doubts = film.doubts();
   if (parts->scale && !options.space && !options.time) summary.plan = plan.reason;
   const HipTick* before = nullptr;
   for (const HipTick& tick : *path) {

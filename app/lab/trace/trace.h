@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/haptics/baseline/methods.h"
 #include "app/lab/trace/depth_film.h"
@@ -32,8 +33,9 @@ struct TraceOptions {
 struct TraceSummary {
   std::size_t ticks = 0, contact_ticks = 0;
   double max_force_n = 0;
-  std::string parts;  // parts that the method used
-  std::string plan;   // `relievo` with its own parts: the plan for this film and its reason
+  std::string parts;                // parts that the method used
+  std::string plan;                 // `relievo` with its own parts: the plan for this film and its reason
+  std::vector<std::string> doubts;  // why the depth may be read wrongly
 };
 
 // InvalidArgument for options that cannot be combined; the failure names both.

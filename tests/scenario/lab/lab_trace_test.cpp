@@ -240,6 +240,27 @@ TEST_F(LabTrace, SaysWhichLineIsWrongAndLeavesNoHalfOfAnOutput) {
   EXPECT_EQ(readOut().size(), 1u);
 }
 
+TEST_F(LabTrace, TellsWhyTheDepthMayBeReadWrongly) {
+  std::ofstream(folder_ / "hip.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n";
+  const auto tells = [&](const char* words, const char* doubt) {
+    const std::string said =
+        test::runProgram("relievo-lab trace --depth " + (folder_ / "film.mkv") + " --hip " + (folder_ / "hip.csv") +
+                             " --out " + (folder_ / "out.csv") + " --method relievo " + words,
+                         folder_ / ".")
+            .out;
+    return said.find("doubt: " + std::string(doubt)) != std::string::npos;
+  };
+  makeFilm(32, 24, 30, 6, [](double x, double, double) { return 20 + 0.2 * x; });
+  EXPECT_TRUE(tells("", "nothing says which end of the depth is near"));
+  EXPECT_FALSE(tells("--calibration polarity=near-high", ""));
+  test::ClipTrack colors{.pix_fmt = "yuv444p", .width = 64, .height = 48, .frames = 2};
+  colors.sample = [](int k, int c, int, int) {
+    return static_cast<std::uint32_t>(k == 0 ? 60 + 2 * c : k == 1 ? 60 : 200);
+  };
+  test::makeClip(folder_ / "film.mkv", {colors});
+  EXPECT_TRUE(tells("--calibration polarity=near-high", "100 % of the depth is coloured"));
+}
+
 TEST_F(LabTrace, TellsThePartsThatItReallyUsed) {
   makeFilm(32, 24, 30, 6, [](double x, double, double) { return 20 + 0.1 * x; });
   std::ofstream(folder_ / "hip.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,0,30\n";
