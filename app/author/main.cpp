@@ -72,14 +72,25 @@ void addSourceOptions(CLI::App& app, SourceOptions& source) {
   addRateOption(app, source);
 }
 
+// For CLI11's `check`.
+CLI::Validator quality() {
+  constexpr int kWorst = 51;
+  const auto judge = [](const std::string& word) -> std::string {
+    int crf = 0;
+    const bool good = CLI::detail::lexical_cast(word, crf) && crf >= 0 && crf <= kWorst;
+    return good ? "" : word + " is not a whole number between 0 and " + std::to_string(kWorst);
+  };
+  return {judge, ""};
+}
+
 // Quality of both tracks, and of the depth alone.
 void addQualityOptions(CLI::App& app, Arguments& a) {
   app.add_option("--crf", a.crf, "Quality of both tracks, 0 (lossless) to 51 [18 for colour, 8 for depth]")
       ->type_name("N")
-      ->check(CLI::Range(0, 51).description(""));
+      ->check(quality());
   app.add_option("--depth-crf", a.depth_crf, "Quality of the depth; 0 is lossless, which not all hardware decodes")
       ->type_name("N")
-      ->check(CLI::Range(0, 51).description(""));
+      ->check(quality());
 }
 
 DepthSize depthSize(const std::string& word) {
@@ -171,10 +182,8 @@ void addCodingOptions(CLI::App& app, DepthCoding& depth) {
   addChoice(app, "--depth-codec", depth.codec,
             {{"h264", VideoCodec::H264}, {"hevc", VideoCodec::Hevc}, {"ffv1", VideoCodec::Ffv1}},
             "Codec of the depth; ffv1 is lossless, and only for .mkv");
-  app.add_option("--depth-bits", depth.bits,
-                 "Bits of the depth [8]: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16")
-      ->type_name("N")
-      ->check(CLI::IsMember({8, 10, 12, 16}).description(""));
+  addChoice(app, "--depth-bits", depth.bits, {{"8", 8}, {"10", 10}, {"12", 12}, {"16", 16}},
+            "Bits of the depth: h264 has 8 and 10, hevc 8, 10 and 12, ffv1 8, 10, 12 and 16");
   addChoice(app, "--depth-chroma", depth.flat_chroma, {{"none", false}, {"flat", true}},
             "none: depth is 4:0:0; flat: 4:2:0 with gray chroma, for hardware that cannot decode 4:0:0");
   addChoice(
@@ -185,9 +194,7 @@ void addCodingOptions(CLI::App& app, DepthCoding& depth) {
 }
 
 void addSceneOption(CLI::App& app, std::string& scene) {
-  app.add_option("--scene", scene, "Make the built-in sample film, with exact depth, instead")
-      ->type_name("sample")
-      ->check(CLI::IsMember({"sample"}).description(""))
+  addChoice(app, "--scene", scene, {{"sample", "sample"}}, "Make the built-in sample film, with exact depth, instead")
       ->excludes("--color")
       ->excludes("--depth")
       ->excludes("--depth-from")
