@@ -123,7 +123,7 @@ void WordsPlace::follow(std::span<const TexturedVertex> vertices, std::span<cons
   }
   if (ahead.more) needs.wished = std::max(needs.wished, around);
   behind_ = present.under == kFarthest ? present.around : present.under;
-  needs.wished = std::max(needs.wished, kFarthest) + kInFront * width_px;
+  needs.wished += kInFront * width_px;
   move(needs);
 }
 
