@@ -6,9 +6,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "app/player/control/verb_table.h"
 #include "app/player/screen/stereo_word.h"
+#include "platform/near_words.h"
 
 namespace relievo {
 namespace {
@@ -136,7 +138,13 @@ std::string whyNoCommand(std::string_view words) {
   const std::string word(words.substr(0, space));
   const std::string operand(space == std::string_view::npos ? "" : words.substr(space + 1));
   const auto entry = std::ranges::find(verbTable(), std::string_view(word), [](const VerbEntry& e) { return e.word; });
-  if (entry == verbTable().end()) return "unknown command \"" + word + "\"; known are: " + commandWords();
+  if (entry == verbTable().end()) {
+    std::vector<std::string> known;
+    for (const VerbEntry& each : verbTable()) known.emplace_back(each.word);
+    const std::string near = nearestWord(word, known);
+    return "unknown command \"" + word + "\"; " + (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
+           "known are: " + commandWords();
+  }
   const std::string form = formOf(entry->operand);
   if (form.empty()) return "\"" + word + "\" takes no word after it, but \"" + operand + "\" was given";
   const std::string wrong = operand.empty() ? ": it is missing" : ", not \"" + operand + "\"";

@@ -107,7 +107,7 @@ class Reader {
     if (words.empty()) return {};
     into = parseCommand(words);
     if (into) return {};
-    return wrong(node, "\"" + words + "\" is not a command; the commands are " + commandWords(), "mend this line");
+    return wrong(node, whyNoCommand(words), "mend this line");
   }
 
   const std::string& file_;

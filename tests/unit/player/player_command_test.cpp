@@ -104,6 +104,7 @@ TEST(Command, WhatIsNoneIsNone) {
 }
 
 TEST(Command, SaysWhichWordIsWrong) {
+  EXPECT_TRUE(whyNoCommand("pase").starts_with("unknown command \"pase\"; did you mean \"pause\"? known are: play, "));
   EXPECT_TRUE(whyNoCommand("dance").starts_with("unknown command \"dance\"; known are: play, "))
       << whyNoCommand("dance");
   EXPECT_EQ(whyNoCommand("select x"), "\"select\" takes +N|-N|N|last, not \"x\"");

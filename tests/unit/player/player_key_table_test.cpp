@@ -268,6 +268,8 @@ TEST_P(KeyTableWrong, NamesTheLineAndTheWord) {
 INSTANTIATE_TEST_SUITE_P(Lines, KeyTableWrong,
                          testing::Values(std::pair{"[always]\nRIGT = \"stop\"", "RIGHT?"},
                                          std::pair{"[always]\nRIGHT = \"dance\"", "\"dance\""},
+                                         std::pair{"[always]\nRIGHT = \"pase\"", "did you mean \"pause\"?"},
+                                         std::pair{"[always]\nRIGHT = \"loop x\"", "takes [on|off]"},
                                          std::pair{"[always]\nRIGHT = 10", ""},
                                          std::pair{"[always]\nRIGHT = [\"stop\"]", ""},
                                          std::pair{"[always]\nRIGHT = { push = \"stop\" }", "push"},
