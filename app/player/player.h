@@ -129,6 +129,7 @@ class Player {
   [[nodiscard]] std::string fileName() const;
   void followStatistics(MonotonicTime now);
   void tellStatus(MonotonicTime now);
+  [[nodiscard]] std::vector<PlayerVerb> barButtons() const;
 
   // player_film.cpp: within a film
   void carryOut(const Deed& deed, MonotonicTime now);
@@ -170,7 +171,7 @@ class Player {
   void openSelected(MonotonicTime now);
   [[nodiscard]] std::optional<std::size_t> placeOnShelf() const;
   void goBack(MonotonicTime now);
-  [[nodiscard]] bool hearMouseInList(const SurfaceMouse& mouse);
+  [[nodiscard]] bool hearMouseInList(const SurfaceMouse& mouse, bool clicks);
 
   // player_list.cpp: from film to film
   void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now);

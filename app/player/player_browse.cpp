@@ -66,7 +66,6 @@ void Player::closeBrowser() {
   browser_->close();
   screen_.text().setList(std::nullopt);
   screen_.text().hideKeys();  // they are the list's
-  mouse_.leaveList();
 }
 
 void Player::followBrowser(MonotonicTime now) {
@@ -76,7 +75,6 @@ void Player::followBrowser(MonotonicTime now) {
     if (place) failFilm(*place, kTakenAway);
     return;
   }
-  if (mouse_.takeChoice()) return chooseFilm(now);
   browser_->warn(screen_.text().showsWarning(now));
   if (browser_->attend(now)) screen_.text().setList(browser_->view());
 }
@@ -106,11 +104,14 @@ void Player::goBack(MonotonicTime now) {
 }
 
 // Called within the display's `attend`: the chosen film is opened later in the round.
-bool Player::hearMouseInList(const SurfaceMouse& mouse) {
+bool Player::hearMouseInList(const SurfaceMouse& mouse, bool clicks) {
   const auto film = screen_.filmAt(mouse);
   browser_->point(film);
   if (mouse.notches != 0) browser_->selectBy(-mouse.notches);
-  if (mouse_.press(mouse.pressed, film.has_value())) browser_->select(*film);
+  if (clicks && film) {
+    browser_->select(*film);
+    mouse_.click(PlayerVerb::Choose);
+  }
   return true;
 }
 

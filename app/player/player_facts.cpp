@@ -89,6 +89,25 @@ PlayReport Player::report() const {
   return report;
 }
 
+// For whoever has a mouse alone: what has a meaning for this film.
+std::vector<PlayerVerb> Player::barButtons() const {
+  if (!config_.has_mouse || !film_.isOpen()) return {};
+  const FilmInfo& info = film_.info();
+  const bool has_3d = info.has_depth || !film_.picture().right.empty();
+  std::vector<PlayerVerb> buttons{PlayerVerb::PlayPause};
+  const auto add = [&buttons](PlayerVerb verb, bool has_meaning) {
+    if (has_meaning) buttons.push_back(verb);
+  };
+  add(PlayerVerb::Next, !refusal({PlayerVerb::Next}));
+  add(PlayerVerb::SubtitleTrack, !info.subtitles.empty());
+  add(PlayerVerb::AudioTrack, info.sounds.size() > 1);
+  add(PlayerVerb::Layout, has_3d);
+  add(PlayerVerb::FullScreen, true);
+  add(PlayerVerb::Back, returnsToBrowser());
+  add(PlayerVerb::Keys, true);
+  return buttons;
+}
+
 ScreenFacts Player::facts() const {
   const PlaylistEntry& film = programme_.film();
   std::array<FingerFacts, 2> fingers;
@@ -123,6 +142,7 @@ ScreenFacts Player::facts() const {
           .chapter = chapterWords(film_.info().chapters, film_.goal(parts_.clock.now())),
           .aspect = screen_.aspectWord(),
           .full_screen = screen_.isFullScreen(),
+          .buttons = barButtons(),
           .loop_from_s = secondsOf(loop_ab_.from()),
           .loop_to_s = secondsOf(loop_ab_.to())};
 }

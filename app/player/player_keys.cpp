@@ -62,12 +62,13 @@ void Player::obeyKey(const PlayerCommand& command, std::uint16_t code, Monotonic
 
 // Called within the display's `attend`.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
+  const bool clicks = mouse_.press(mouse.pressed);
   if (screen_.text().showsKeys()) {
     screen_.text().turnPage(-mouse.notches);
-    if (mouse.pressed) screen_.text().hideKeys();
+    if (clicks) screen_.text().hideKeys();
     return true;
   }
-  if (state_ == PlayerState::Browsing) return hearMouseInList(mouse);
+  if (state_ == PlayerState::Browsing) return hearMouseInList(mouse, clicks);
   if (mouse.notches != 0) {
     const bool is_volume = screen_.isOverBar(mouse) || !config_.mouse_touches;
     if (is_volume) mouse_.turn(mouse.notches);
@@ -75,13 +76,16 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   }
   const auto share = screen_.barAt(mouse, parts_.clock.now());
   if (share && mouse.pressed) mouse_.drag(*share);
-  return share.has_value();
+  const auto button = screen_.buttonAt(mouse);
+  if (button && clicks) mouse_.click(*button);
+  return share || button;
 }
 
 // While one seek is under way the mouse may move on; its last position is used.
 void Player::followMouse(MonotonicTime now) {
   constexpr double kLouder = 5;  // percent a notch of the wheel
   if (const int notches = mouse_.takeNotches(); notches != 0) obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
+  if (const auto verb = mouse_.takeClick()) obey({*verb}, now);
   if (state_ == PlayerState::Seeking) return;
   if (const auto share = mouse_.takeDrag()) obey({PlayerVerb::SeekShare, *share}, now);
 }

@@ -277,6 +277,29 @@ TEST_F(PlayerWindow, ItsBarIsPressedAndDragged) {
   EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
 }
 
+// For whoever has a mouse alone. The view is 960 units wide; "Pause", "3D", "Full screen" and "?" end at its margin.
+TEST_F(PlayerWindow, AWordOfItsBarIsClicked) {
+  const auto player = play({"--haptic", "pointer"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  const auto click = [&](double across) {
+    screen_->moveMouse(place_.x + static_cast<int>(across / 960 * kWidth),
+                       place_.y + static_cast<int>(597.0 / 720 * kHeight));
+    std::this_thread::sleep_for(300ms);
+    screen_->button(1, true);
+    std::this_thread::sleep_for(300ms);
+    screen_->button(1, false);
+    std::this_thread::sleep_for(300ms);
+  };
+  click(590);  // "Pause"
+  click(670);  // "3D"
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  const json r = report();
+  EXPECT_EQ(r["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
+  EXPECT_EQ(r["video"]["stereo"], "sbs") << "the next one after mono";
+  EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
+}
+
 // Otherwise the wheel is the finger's.
 TEST_F(PlayerWindow, OverTheBarTheWheelIsTheVolumeAlsoOfAMouseThatTouches) {
   ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);

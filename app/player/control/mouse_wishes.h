@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "app/player/control/command.h"
+
 namespace relievo {
 
 // Mouse events arrive in the middle of a round, between two pictures; the player carries them out at its own place in
@@ -15,26 +17,24 @@ class MouseWishes {
   void turn(int notches) noexcept { notches_ += notches; }
   // A place on the bar was pressed, as a share of the film; the last one counts.
   void drag(double share) noexcept { dragged_to_ = share; }
-  // Over the list of films: whether the button is down, and on a film. True if that film has just been clicked.
-  [[nodiscard]] bool press(bool pressed, bool on_film) noexcept {
-    const bool clicks = pressed && !pressed_ && on_film;
-    pressed_ = pressed;
-    chosen_ = chosen_ || clicks;
-    return clicks;
+  // Whether the button is down. True if it has just been pressed.
+  [[nodiscard]] bool press(bool pressed) noexcept {
+    const bool was_pressed = std::exchange(pressed_, pressed);
+    return pressed && !was_pressed;
   }
-  // Call when the list is no longer shown.
-  void leaveList() noexcept { pressed_ = chosen_ = false; }
+  // A button of the bar, or the selected film of the list, was clicked.
+  void click(PlayerVerb verb) noexcept { clicked_ = verb; }
 
   // Each is returned once.
   [[nodiscard]] int takeNotches() noexcept { return std::exchange(notches_, 0); }
   [[nodiscard]] std::optional<double> takeDrag() noexcept { return std::exchange(dragged_to_, std::nullopt); }
-  [[nodiscard]] bool takeChoice() noexcept { return std::exchange(chosen_, false); }
+  [[nodiscard]] std::optional<PlayerVerb> takeClick() noexcept { return std::exchange(clicked_, std::nullopt); }
 
  private:
   int notches_ = 0;
   std::optional<double> dragged_to_;
   bool pressed_ = false;
-  bool chosen_ = false;
+  std::optional<PlayerVerb> clicked_;
 };
 
 }  // namespace relievo

@@ -19,7 +19,9 @@ void addBar(Script& script, const ScreenBar& bar);
 // The position in the bar of a point of the view, 0 to 1; nullopt beside the bar. `across` and `down` in shares of the
 // view.
 [[nodiscard]] std::optional<double> barShareAt(double across, double down, double aspect) noexcept;
-// The same at any distance above or below the bar.
+// The button at a point of the view.
+[[nodiscard]] std::optional<PlayerVerb> barButtonAt(const ScreenBar& bar, double across, double down, double aspect);
+// The share at any distance above or below the bar.
 [[nodiscard]] double barShareAlong(double across, double aspect) noexcept;
 
 }  // namespace relievo

@@ -2,6 +2,7 @@
 // Decides when to draw.
 #include "app/player/screen/film_screen.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -190,18 +191,23 @@ std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime
   const auto point = osd_ ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
   if (!point) return std::nullopt;
   drags_bar_ = drags_bar_ && mouse.pressed;
-  if (point->down > kNear || drags_bar_) text_.wake(now);
+  if (point->down > std::min(kNear, roomForWords(written_, point->aspect)) || drags_bar_) text_.wake(now);
   const auto share =
       drags_bar_ ? barShareAlong(point->across, point->aspect) : barShareAt(point->across, point->down, point->aspect);
-  text_.point(share, now);
+  text_.point(share, drags_bar_ ? std::nullopt : buttonAt(mouse), now);
   if (!written_.bar || !written_.bar->has_length) return std::nullopt;
   drags_bar_ = share && mouse.pressed;
   return share;
 }
 
+std::optional<PlayerVerb> FilmScreen::buttonAt(const SurfaceMouse& mouse) const {
+  const auto point = written_.bar ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
+  return point ? barButtonAt(*written_.bar, point->across, point->down, point->aspect) : std::nullopt;
+}
+
 bool FilmScreen::isOverBar(const SurfaceMouse& mouse) const {
   const auto point = written_.bar ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
-  return point && (drags_bar_ || barShareAt(point->across, point->down, point->aspect));
+  return point && (drags_bar_ || point->down > roomForWords(written_, point->aspect));
 }
 
 std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {

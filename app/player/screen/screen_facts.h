@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/player/control/command.h"
 #include "app/player/state_table.h"
 #include "app/render/relief/stereo.h"
 
@@ -41,6 +42,7 @@ struct ScreenFacts {
   std::string chapter;  // where the film is, or is sought: "2 of 4, The Nose"; empty: it has none
   std::string aspect;   // the shape's word
   bool full_screen = false;
+  std::vector<PlayerVerb> buttons;               // that the bar has for a mouse; empty without one
   std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop
 };
 

@@ -47,6 +47,27 @@ std::string hapticWords(const ScreenFacts& facts) {
   return "touch: " + (words.empty() ? "no device" : words);
 }
 
+std::string buttonWord(PlayerVerb verb, const ScreenFacts& facts) {
+  switch (verb) {
+    case PlayerVerb::PlayPause:
+      return facts.held ? "Play" : "Pause";
+    case PlayerVerb::SubtitleTrack:
+      return "Subtitles";
+    case PlayerVerb::AudioTrack:
+      return "Sound";
+    case PlayerVerb::Layout:
+      return "3D";
+    case PlayerVerb::FullScreen:
+      return facts.full_screen ? "Window" : "Full screen";
+    case PlayerVerb::Next:
+      return "Next";
+    case PlayerVerb::Back:
+      return "Films";
+    default:
+      return "?";
+  }
+}
+
 double rounded(double value, double steps) noexcept {
   return std::round(value * steps) / steps;
 }
@@ -96,8 +117,9 @@ void ScreenText::hint(std::string words, MonotonicTime now) {
   hinted_until_ = now + kNotice;
 }
 
-void ScreenText::point(std::optional<double> share, MonotonicTime now) {
+void ScreenText::point(std::optional<double> share, std::optional<PlayerVerb> button, MonotonicTime now) {
   pointed_ = share;
+  pointed_button_ = button;
   pointed_until_ = now + kAwake;
 }
 
@@ -110,6 +132,8 @@ ScreenBar ScreenText::bar(const ScreenFacts& facts, MonotonicTime now) const {
                 .times = timesOf(facts),
                 .status = stereoWords(facts) + "   " + hapticWords(facts),
                 .has_length = facts.duration_s > 0};
+  for (const PlayerVerb verb : facts.buttons) bar.buttons.push_back({verb, buttonWord(verb, facts)});
+  if (now < pointed_until_) bar.pointed_button = pointed_button_;
   if (!bar.has_length) return bar;
   const auto share = [&](double seconds) {
     return rounded(std::clamp(seconds / facts.duration_s, 0.0, 1.0), kBarSteps);

@@ -15,6 +15,13 @@
 
 namespace relievo {
 
+// A word of the bar to click, and what a click does.
+struct ScreenButton {
+  PlayerVerb verb = PlayerVerb::PlayPause;
+  std::string word;
+  bool operator==(const ScreenButton&) const = default;
+};
+
 // The bar under the picture. Times are shares of the film's length, from 0 to 1.
 struct ScreenBar {
   std::string title;
@@ -26,6 +33,8 @@ struct ScreenBar {
   std::optional<double> loop_from, loop_to;
   std::optional<double> pointed;  // under the mouse
   std::string pointed_time;       // the time there
+  std::vector<ScreenButton> buttons;
+  std::optional<PlayerVerb> pointed_button;  // likewise
   bool operator==(const ScreenBar&) const = default;
 };
 
@@ -93,8 +102,8 @@ class ScreenText {
   // The list of films, shown only with warnings, notices and keys; nullopt: a film is shown.
   void setList(std::optional<ScreenList> list) { list_ = std::move(list); }
   [[nodiscard]] bool hasList() const noexcept { return list_.has_value(); }
-  // The mouse is over this place of the bar, 0 to 1; nullopt: it is not over the bar.
-  void point(std::optional<double> share, MonotonicTime now);
+  // The mouse is over this place of the bar, 0 to 1, or over this button; nullopt: it is not.
+  void point(std::optional<double> share, std::optional<PlayerVerb> button, MonotonicTime now);
   void setChapters(std::vector<double> starts_s) { chapters_s_ = std::move(starts_s); }
 
   [[nodiscard]] bool showsBar(const ScreenFacts& facts, MonotonicTime now) const noexcept;
@@ -115,6 +124,7 @@ class ScreenText {
   ScreenNotice notice_;
   MonotonicTime told_until_, noticed_until_, hinted_until_, pointed_until_;
   std::optional<double> pointed_;
+  std::optional<PlayerVerb> pointed_button_;
   std::vector<double> chapters_s_;
   std::optional<ScreenList> list_;
 };

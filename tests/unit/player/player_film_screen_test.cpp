@@ -223,6 +223,21 @@ TEST_F(FilmScreenTest, TheWheelOverTheBarDoesNotReleaseIt) {
   EXPECT_TRUE(screen_->barAt({.across = 0.5, .down = kAbove, .pressed = true}, clock_.now())) << "still";
 }
 
+// The only button ends at the right margin; its word is in the title's place, since there is no title.
+TEST_F(FilmScreenTest, AButtonOfTheBarIsUnderTheMouseOnlyWhileTheBarIsShown) {
+  stereo_ = {.layout = StereoLayout::Mono};
+  make();
+  EXPECT_TRUE(show());
+  const SurfaceMouse on{.across = 1225.0 / 1280, .down = 600.0 / 720}, beside{.across = 0.5, .down = 600.0 / 720};
+  EXPECT_EQ(screen_->buttonAt(on), std::nullopt);
+  screen_->wake(clock_.now());
+  screen_->write({.duration_s = 100, .buttons = {PlayerVerb::FullScreen}}, MonotonicTime::max(), clock_.now());
+  EXPECT_EQ(screen_->buttonAt(on), PlayerVerb::FullScreen);
+  EXPECT_EQ(screen_->buttonAt(beside), std::nullopt);
+  EXPECT_EQ(screen_->barAt(on, clock_.now()), std::nullopt) << "no place of the film";
+  EXPECT_TRUE(screen_->isOverBar(beside)) << "the wheel over the words is the volume, too";
+}
+
 TEST_F(FilmScreenTest, AFilmWithoutALengthHasABarForTheWheel) {
   stereo_ = {.layout = StereoLayout::Mono};
   make();

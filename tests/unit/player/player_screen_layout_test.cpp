@@ -175,6 +175,40 @@ TEST_P(ScreenLayout, NothingOfTheBarIsInTheSubtitlesRoom) {
   }
 }
 
+// As many as a film can have. Each word lies in the place that takes its click.
+TEST_P(ScreenLayout, TheBarsButtonsMeetNoOtherWord) {
+  using enum PlayerVerb;
+  const std::vector<ScreenButton> all{{PlayPause, "Pause"},  {Next, "Next"},         {SubtitleTrack, "Subtitles"},
+                                      {AudioTrack, "Sound"}, {Layout, "3D"},         {FullScreen, "Full screen"},
+                                      {Back, "Films"},       {PlayerVerb::Keys, "?"}};
+  for (const char* title : {"", "film.mkv", test::kLongName}) {
+    for (const std::size_t count : {std::size_t{4}, all.size()}) {
+      ScreenContent content;
+      content.bar = ScreenBar{.title = title,
+                              .times = "1:01:23 / 1:02:05   paused   1/8x   film 12 of 345   repeat",
+                              .status = "3D: mono   no depth in this film, nothing to feel",
+                              .has_length = true,
+                              .pointed = 0.999,
+                              .pointed_time = "1:02:00",
+                              .buttons = {all.end() - static_cast<std::ptrdiff_t>(count), all.end()},
+                              .pointed_button = FullScreen};
+      content.forces_n = {9.9, 9.8};
+      expectApart(content);
+      for (const Words& words : inkOf(screenLines(content, GetParam().aspect))) {
+        const auto button = std::ranges::find_if(
+            content.bar->buttons, [&](const ScreenButton& each) { return words.line.ends_with("}" + each.word); });
+        if (button == content.bar->buttons.end()) continue;
+        for (const double x : {words.left + 0.5, words.right - 0.5}) {
+          EXPECT_EQ(
+              barButtonAt(*content.bar, x / GetParam().width, (words.top + 0.5) / GetParam().height, GetParam().aspect),
+              button->verb)
+              << button->word;
+        }
+      }
+    }
+  }
+}
+
 constexpr double kWide = 16.0 / 9;
 INSTANTIATE_TEST_SUITE_P(Views, ScreenLayout,
                          testing::Values(TextFrame{.width = 1280, .height = 720, .aspect = kWide},
