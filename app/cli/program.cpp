@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -31,8 +33,19 @@ void endNow(int number) {
   std::raise(number);  // delivered when this handler returns
 }
 
+constexpr unsigned kEndsSoonS = 3;
+std::array<char, 128> still_ending{};
+
+// A display or a device that does not answer can hold up the end: then SIGALRM brings a word.
 void onSignal(int number) {
-  if (stop_wanted.exchange(true, std::memory_order_relaxed)) endNow(number);
+  if (!stop_wanted.exchange(true, std::memory_order_relaxed)) {
+    ::alarm(kEndsSoonS);
+    return;
+  }
+  if (number != SIGALRM) return endNow(number);
+  const int interrupted = errno;
+  static_cast<void>(::write(STDERR_FILENO, still_ending.data(), std::strlen(still_ending.data())));
+  errno = interrupted;
 }
 
 int tellExhausted(const std::exception& error) {
@@ -95,8 +108,10 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   struct sigaction action{};
   action.sa_handler = onSignal;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGIO, SIGPWR}) {
+    action.sa_flags = number == SIGALRM ? SA_RESTART : 0;
     ::sigaction(number, &action, nullptr);
   }
+  action.sa_flags = 0;
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   action.sa_handler = endNow;
@@ -122,6 +137,8 @@ int runProgram(const char* name, const std::function<int()>& body) noexcept {
   fillClosedStreams();
   boundDescriptors();
   setLogProgram(name);
+  std::snprintf(still_ending.data(), still_ending.size(), "%s: is still ending; a second signal ends it at once\n",
+                name);
   std::set_terminate(onUncaught);
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is a write error, not the end of the program
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is a write error too

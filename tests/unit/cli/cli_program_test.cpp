@@ -35,6 +35,19 @@ TEST(ProgramDeathTest, NeitherDoesASecondSignal) {
               "^quiet$");
 }
 
+// As with a display that does not answer.
+TEST(ProgramDeathTest, AnEndThatTakesLongIsTold) {
+  const auto end = [] {
+    begin();
+    std::raise(SIGTERM);
+    const bool set = ::alarm(0) > 0;
+    std::raise(SIGALRM);
+    return set ? 5 : 6;
+  };
+  EXPECT_EXIT(std::_Exit(runProgram("relievo", end)), testing::ExitedWithCode(5),
+              "^relievo: is still ending; a second signal ends it at once\n$");
+}
+
 TEST(ProgramDeathTest, AThreadWithoutMemoryEndsTheProgramWithALine) {
   const auto run = [](const std::function<void()>& work) {
     return runProgram("relievo", [&] {
