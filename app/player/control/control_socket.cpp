@@ -106,14 +106,17 @@ void ControlSocket::attend(std::string_view refusal) {
 }
 
 void ControlSocket::accept(std::string_view refusal) {
-  UniqueFd fd(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (!fd.valid()) return;
-  if (clients_.size() < kMostClients) {
-    clients_.push_back({.id = ++last_id_, .fd = std::move(fd)});
-    return;
+  for (std::size_t waiting = 0; waiting < kMostClients; ++waiting) {
+    UniqueFd fd(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (!fd.valid()) return;
+    Client client{.id = last_id_ + 1, .fd = std::move(fd)};
+    if (clients_.size() == kMostClients) {
+      put(client, refusal);
+      continue;
+    }
+    ++last_id_;
+    clients_.push_back(std::move(client));
   }
-  Client refused{.fd = std::move(fd)};
-  put(refused, refusal);
 }
 
 void ControlSocket::receive(Client& client) {

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -159,6 +160,14 @@ TEST_F(ControlSocketTest, LetsEightInAndTellsTheNinth) {
   socket_->attend("full");
   socket_->sendToAll("\"again\"");
   EXPECT_EQ(late.next(std::chrono::seconds(5)), "again");
+}
+
+// A round without a film takes 20 ms.
+TEST_F(ControlSocketTest, AllThatWaitAreLetInInOneRound) {
+  std::array<ControlClient, 3> clients{ControlClient(path()), ControlClient(path()), ControlClient(path())};
+  socket_->attend("full");
+  socket_->sendToAll("\"hello\"");
+  for (ControlClient& client : clients) EXPECT_EQ(client.next(std::chrono::seconds(5)), "hello");
 }
 
 TEST_F(ControlSocketTest, OneThatDoesNotReadIsLetGoAndTheOthersNeverKnow) {
