@@ -152,13 +152,30 @@ TEST(ScreenText, ForceChaptersAndBufferAreSharesOfWhatIsShown) {
 TEST(ScreenText, TellsTheTimeUnderTheMouseWhileItIsOverTheBar) {
   ScreenText text;
   text.wake(kStart);
-  text.point(0.5, kStart);
+  text.point(0.5, std::nullopt, kStart);
   const auto bar = at(text, playing()).bar;
   ASSERT_TRUE(bar);
   EXPECT_EQ(bar->pointed, 0.5);
   EXPECT_EQ(bar->pointed_time, "31:02") << "3725 s by 2";
-  text.point(std::nullopt, kStart);
+  text.point(std::nullopt, std::nullopt, kStart);
   EXPECT_FALSE(at(text, playing()).bar->pointed);
+}
+
+// The words say what a click does now.
+TEST(ScreenText, AButtonsWordFollowsTheStateAndTheMouseMarksIt) {
+  ScreenText text;
+  text.wake(kStart);
+  ScreenFacts facts = playing();
+  EXPECT_TRUE(at(text, facts).bar->buttons.empty()) << "without a mouse";
+  facts.buttons = {PlayerVerb::PlayPause, PlayerVerb::FullScreen};
+  EXPECT_EQ(at(text, facts).bar->buttons[0].word, "Pause");
+  EXPECT_EQ(at(text, facts).bar->buttons[1].word, "Full screen");
+  EXPECT_EQ(at(text, facts).bar->pointed_button, std::nullopt);
+  facts.held = facts.full_screen = true;
+  text.point(std::nullopt, PlayerVerb::FullScreen, kStart);
+  EXPECT_EQ(at(text, facts).bar->buttons[0].word, "Play");
+  EXPECT_EQ(at(text, facts).bar->buttons[1].word, "Window");
+  EXPECT_EQ(at(text, facts).bar->pointed_button, PlayerVerb::FullScreen);
 }
 
 TEST(ScreenText, MarksAFingerBesideThePictureAlone) {
