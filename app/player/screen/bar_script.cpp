@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/player/screen/fold.h"
@@ -39,12 +40,21 @@ struct BarWords {
   }
 };
 
+// That of the longest word that it can have, so that no button moves when one is clicked.
+double widthOf(const ScreenButton& button) noexcept {
+  constexpr std::string_view kPause = "Pause", kFullScreen = "Full screen";
+  const std::size_t most = button.verb == PlayerVerb::PlayPause    ? kPause.size()
+                           : button.verb == PlayerVerb::FullScreen ? kFullScreen.size()
+                                                                   : button.word.size();
+  return 2 * kButtonSides + kLetterOfSize * kTimesSize * static_cast<double>(most);
+}
+
 // In lines from the right; the lowest one is at 0.
 std::vector<Area> placesOf(const std::vector<ScreenButton>& buttons, double width) {
   std::vector<Area> places(buttons.size());
   double right = width - kMargin, y = 0;
   for (std::size_t i = buttons.size(); i-- > 0;) {
-    const double wide = 2 * kButtonSides + kLetterOfSize * kTimesSize * static_cast<double>(buttons[i].word.size());
+    const double wide = widthOf(buttons[i]);
     if (right - wide < kMargin && right < width - kMargin) {
       right = width - kMargin;
       y -= kButtonLine;
@@ -55,15 +65,15 @@ std::vector<Area> placesOf(const std::vector<ScreenButton>& buttons, double widt
   return places;
 }
 
-// Below the title and the status, unless enough of the title's last line is left.
+// Below the title and the status, unless there is room beside the whole title.
 void placeButtons(BarWords& words, const ScreenBar& bar, double width) {
-  constexpr int kFewestCells = 24;  // of the title
   constexpr double kGap = 24;
   double title_width = width - 2 * kMargin;
   words.buttons = placesOf(bar.buttons, width);
   if (!words.buttons.empty()) {
     const double left = words.buttons.front().x - kGap - kMargin;
-    const bool beside = words.buttons.front().y == 0 && cellsIn(left, kTitleSize) >= kFewestCells && !bar.title.empty();
+    const double title = kLetterOfSize * kTitleSize * static_cast<double>(bar.title.size());
+    const bool beside = words.buttons.front().y == 0 && title <= left && !bar.title.empty();
     if (beside) title_width = left;
     else words.button_lines = 1 - words.buttons.front().y / kButtonLine;
   }

@@ -108,6 +108,27 @@ TEST(ScreenScript, LongKeysStayWholeInANarrowWindow) {
   EXPECT_THAT(lines, testing::Contains(HasSubstr("(comma)")));
 }
 
+// Else a second click would meet another word.
+TEST(ScreenScript, NoButtonMovesWhenItsWordChanges) {
+  using enum PlayerVerb;
+  const auto leftEnd = [](const ScreenBar& bar, PlayerVerb verb) {
+    int x = 0;
+    while (x < 1280 && barButtonAt(bar, x / 1280.0, 597.0 / 720, 16.0 / 9) != verb) ++x;
+    return x;
+  };
+  const ScreenBar before{.title = "film", .buttons = {{PlayPause, "Pause"}, {FullScreen, "Full screen"}}};
+  const ScreenBar after{.title = "film", .buttons = {{PlayPause, "Play"}, {FullScreen, "Window"}}};
+  EXPECT_LT(leftEnd(before, PlayPause), leftEnd(before, FullScreen));
+  EXPECT_EQ(leftEnd(before, PlayPause), leftEnd(after, PlayPause));
+  EXPECT_EQ(leftEnd(before, FullScreen), leftEnd(after, FullScreen));
+}
+
+TEST(ScreenScript, ButtonsLeaveTheTitleWhole) {
+  ScreenContent content;
+  content.bar = ScreenBar{.title = std::string(70, 'x'), .buttons = {{PlayerVerb::FullScreen, "Full screen"}}};
+  EXPECT_THAT(screenLines(content, 16.0 / 9), testing::Contains(testing::EndsWith("}" + content.bar->title)));
+}
+
 TEST(ScreenScript, TheBarIsWhereItIsDrawn) {
   constexpr double kAspect = 16.0 / 9, kDown = 664.0 / 720;
   EXPECT_NEAR(*barShareAt(0.5, kDown, kAspect), 0.5, 1e-9);
