@@ -116,6 +116,7 @@ class EvdevRemote final : public RemoteInput {
   }
 
   bool take(const std::string& path) {
+    if (pads_only_ && !mayHaveKey(path, BTN_GAMEPAD)) return true;  // a desktop has many nodes
     auto remote = std::make_unique<Remote>();
     remote->path = path;
     remote->fd = UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));

@@ -6,8 +6,10 @@
 
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string_view>
+#include <system_error>
 
 namespace relievo {
 namespace {
@@ -40,6 +42,26 @@ std::vector<EventNode> listEventNodes() {
   nodes.reserve(by_number.size());
   for (auto& [number, node] : by_number) nodes.push_back(std::move(node));
   return nodes;
+}
+
+bool mayHaveKey(const std::string& path, unsigned code) {
+  const std::string name = std::filesystem::path(path).filename();
+  std::ifstream file("/sys/class/input/" + name + "/device/capabilities/key");
+  std::string words;
+  return !std::getline(file, words) || listsKey(words, code);
+}
+
+bool listsKey(std::string_view words, unsigned code) noexcept {
+  constexpr unsigned kBits = 8 * sizeof(long);  // of the kernel's words
+  for (unsigned left = code / kBits; left > 0; --left) {
+    const std::size_t space = words.rfind(' ');
+    if (space == std::string_view::npos) return false;
+    words.remove_suffix(words.size() - space);
+  }
+  if (const std::size_t space = words.rfind(' '); space != std::string_view::npos) words.remove_prefix(space + 1);
+  unsigned long bits = 0;
+  if (std::from_chars(words.data(), words.data() + words.size(), bits, 16).ec != std::errc()) return false;
+  return (bits >> code % kBits & 1U) != 0;
 }
 
 }  // namespace relievo

@@ -4,6 +4,7 @@
 
 #include <ctime>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace relievo {
@@ -18,5 +19,11 @@ struct EventNode {
 
 // In ascending order of their numbers. Opens nothing. Any thread; not real-time.
 [[nodiscard]] std::vector<EventNode> listEventNodes();
+
+// Whether the node's device may have a key, by what sysfs says of it; true where that cannot be read. Does not open the
+// node: to close one again takes the kernel many milliseconds.
+[[nodiscard]] bool mayHaveKey(const std::string& path, unsigned code);
+// Whether a key is among those of sysfs's `capabilities/key`: a bit each, in hexadecimal words, the highest first.
+[[nodiscard]] bool listsKey(std::string_view words, unsigned code) noexcept;
 
 }  // namespace relievo

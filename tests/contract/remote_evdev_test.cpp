@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "drivers/evdev/evdev.h"
+#include "drivers/evdev/event_nodes.h"
 #include "tests/support/device/mocked_machine.h"
 #include "tests/support/device/umockdev_mouse.h"
 
@@ -126,6 +127,22 @@ TEST_F(RemoteEvdev, APadIsARemoteExceptForTheFingersStickAndTriggers) {
   turn(ABS_RY, 100);
   expectNext(*remote, KEY_VOLUMEUP, KeyEvent::Action::Release);
   EXPECT_EQ(pad.unknownRequests(), 0);
+}
+
+// The words of an Xbox pad, BTN_SOUTH to BTN_THUMBR, and of a keyboard, on a machine of 64 bits.
+TEST(EventNodes, AKeyIsOneOfTheBitsThatSysfsLists) {
+  if (sizeof(long) != 8) GTEST_SKIP() << "words of 32 bits";
+  const char* const pad = "7cdb000000000000 0 0 0 0";
+  EXPECT_TRUE(listsKey(pad, BTN_GAMEPAD));
+  EXPECT_TRUE(listsKey(pad, BTN_THUMBR));
+  EXPECT_FALSE(listsKey(pad, BTN_C));
+  EXPECT_FALSE(listsKey(pad, KEY_ENTER));
+  EXPECT_FALSE(listsKey(pad, BTN_TRIGGER_HAPPY));
+  const char* const keyboard = "10000 402000000 3803078f800d001 feffffdfffefffff fffffffffffffffe";
+  EXPECT_TRUE(listsKey(keyboard, KEY_ENTER));
+  EXPECT_FALSE(listsKey(keyboard, KEY_RESERVED));
+  EXPECT_FALSE(listsKey(keyboard, BTN_GAMEPAD));
+  EXPECT_FALSE(listsKey("", KEY_ENTER));
 }
 
 // Beside a window's keyboard: pads alone, and only while the window has the focus.
