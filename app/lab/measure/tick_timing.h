@@ -39,7 +39,7 @@ struct TimedPath {
 // that other work on the machine affects all alike. One entry per contender.
 [[nodiscard]] std::vector<TickTimes> timeTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
                                                int rounds);
-// Times only ticks, with cold caches: `ticks` of them in one round; before each, untimed, 96 MB are read and written.
+// With cold caches: `ticks` of them in one round, then a few blurs; before each, untimed, 96 MB are read and written.
 [[nodiscard]] std::vector<TickTimes> timeColdTicks(std::span<const Contender* const> contenders, const TimedPath& timed,
                                                    std::size_t ticks);
 

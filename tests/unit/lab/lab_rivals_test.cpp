@@ -210,6 +210,9 @@ TEST_F(OnASphere, TheBlurIsCountedForThoseThatNeedIt) {
     EXPECT_GE(t.whole.median, t.upkeep.median);
     EXPECT_EQ(t.medianUs(), t.whole.median + t.frame_us_per_tick);
   }
+  const auto cold = timeColdTicks(three, {views_, path_, 300}, 3);
+  EXPECT_EQ(cold[1].frame_us_per_tick, 0);
+  EXPECT_GT(cold[2].frame_us_per_tick, 0);
 }
 
 TEST_F(OnASphere, BulletIsAsExactAsTheGodObjectOnSmoothedDepth) {
