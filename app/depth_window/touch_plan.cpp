@@ -176,6 +176,11 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   return m;
 }
 
+bool isCoded(const ClipMeasure& m) {
+  const bool of_waves = m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > stepsUnderNoise(m);
+  return m.ripples > kRipplesOfCodec && !of_waves;
+}
+
 namespace {
 
 bool needsMean(const ClipMeasure& m) {
@@ -190,11 +195,6 @@ double noiseThrough(TimeLaw law, double carried_periods) {
   const double u = carried_periods;
   if (law == TimeLaw::Linear) return kLinearNoise + u + u * u;
   return law == TimeLaw::Mean ? kMeanNoise : law == TimeLaw::BSpline ? kBSplineNoise : kFittedNoise;
-}
-
-bool isCoded(const ClipMeasure& m) {
-  const bool of_waves = m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > stepsUnderNoise(m);
-  return m.ripples > kRipplesOfCodec && !of_waves;
 }
 
 Waves reliefIn(const ClipMeasure& m) {

@@ -30,6 +30,8 @@ struct ClipMeasure {
 };
 // Frames in ascending order, all of one size. All zero without frames.
 [[nodiscard]] ClipMeasure measureClip(std::span<const TimedSurface> frames);
+// Whether a codec has changed the depth.
+[[nodiscard]] bool isCoded(const ClipMeasure& measure);
 
 struct TouchPlan {
   ClipMeasure measure;

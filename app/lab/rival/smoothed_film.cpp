@@ -102,10 +102,10 @@ class OnSmoothedDepth final : public TouchMethod {
 }  // namespace
 
 double blurWidthMm(const ClipMeasure& clip) {
-  constexpr double kLeastMm = 0.14, kMostMm = 2.5, kFlattening = 0.012, kNoise = 0.282, kSteps = 2 * 7.09;
+  constexpr double kLeastMm = 0.14, kMostMm = 2.5, kFlattening = 0.012, kNoise = 0.282, kSteps = 2 * 7.09, kCoded = 2;
+  const double steps_mm = (isCoded(clip) ? kCoded : 1) * clip.quantum_mm;
   const auto error = [&](double w) {
-    return std::hypot(kNoise * clip.noise_mm * clip.sample_mm / (w * w), clip.quantum_mm / (kSteps * w),
-                      kFlattening * w * w);
+    return std::hypot(kNoise * clip.noise_mm * clip.sample_mm / (w * w), steps_mm / (kSteps * w), kFlattening * w * w);
   };
   double width = kLeastMm, wider = width * 1.02;
   while (wider <= kMostMm && error(wider) < error(width)) {

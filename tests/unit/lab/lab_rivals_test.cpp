@@ -182,6 +182,17 @@ class OnASphere : public testing::Test {
   FilmViews views_{film_};
 };
 
+// Like relievo's plan: a codec makes of the steps an error that is as wide as the steps of larger ones.
+TEST(BlurWidth, IsLargerWhereACodecHasChangedTheDepth) {
+  ClipMeasure rounded{.quantum_mm = 40.0 / 255, .sample_mm = 0.2};
+  ClipMeasure coarse = rounded, coded = rounded;
+  coarse.quantum_mm *= 2;
+  coded.ripples = 0.0024;
+  EXPECT_EQ(blurWidthMm(coded), blurWidthMm(coarse));
+  EXPECT_NEAR(blurWidthMm(rounded), 0.87, 0.01);
+  EXPECT_NEAR(blurWidthMm(coded), 1.10, 0.01);
+}
+
 TEST_F(OnASphere, SmoothingTakesMostOfTheStepsAwayFromTheGodObject) {
   EXPECT_LT(errorOf("god-object-smoothed"), errorOf("god-object") / 10);
   EXPECT_LT(errorOf("god-object-smoothed"), 1.5);
