@@ -132,6 +132,9 @@ Outcome<void> drawChart(const std::string& folder, const std::string& name, cons
   writeBelow(*svg, std::span(lines).subspan(first));
   replace(*svg, "title", words.title);
   replace(*svg, "desc", words.reading);
+  constexpr std::string_view kDescribed = "</desc>";
+  if (const std::size_t end = svg->find(kDescribed); end != std::string::npos)
+    svg->insert(end + kDescribed.size(), "\n<metadata>" + escaped(words.occasion) + "</metadata>");
   const std::string path = folder + "/" + name + ".svg";
   auto file = AtomicFile::create(path);
   if (!file) return failOn(path, file.error());
@@ -147,10 +150,10 @@ std::vector<std::string> drawnLines(const ChartWords& words) {
 }
 
 std::optional<ChartWords> wordsOf(std::string_view svg) {
-  const auto title = find(svg, "title"), reading = find(svg, "desc");
+  const auto title = find(svg, "title"), reading = find(svg, "desc"), occasion = find(svg, "metadata");
   if (!title || !reading) return std::nullopt;
   const auto text = [&](const Element& e) { return unescaped(svg.substr(e.begin, e.end - e.begin)); };
-  return ChartWords{text(*title), text(*reading)};
+  return ChartWords{text(*title), text(*reading), occasion ? text(*occasion) : ""};
 }
 
 }  // namespace relievo

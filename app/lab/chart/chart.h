@@ -13,10 +13,12 @@ namespace relievo {
 
 struct ChartWords {
   std::string title, reading;
+  std::string occasion;  // not drawn
 };
 
 // Draws FOLDER/NAME.svg from FOLDER/NAME.csv by the script of that name (app/lab/chart/scripts). The words are drawn,
-// whatever their length, and also stored as the SVG's title and description. NotFound without gnuplot on the PATH.
+// whatever their length, and also stored as the SVG's title, description and metadata. NotFound without gnuplot on the
+// PATH.
 [[nodiscard]] Outcome<void> drawChart(const std::string& folder, const std::string& name, const ChartWords& words);
 
 // Reads the words back from an SVG's text; nullopt if it has none.

@@ -3,12 +3,12 @@
 #include "app/lab/chart/report.h"
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <optional>
 
 #include "app/lab/chart/chart.h"
+#include "app/lab/chart/occasion.h"
 #include "platform/atomic_file.h"
 #include "platform/print.h"
 
@@ -28,10 +28,10 @@ constexpr const char* kHead = R"html(<!doctype html>
 }
 body { background: var(--paper); color: var(--ink); font: 16px/1.5 system-ui, sans-serif; margin: 0 auto;
        max-width: 68rem; padding: 1rem; }
-h1 { font-size: 1.6rem; margin: 0; }
+h1 { font-size: 1.6rem; margin: 0 0 2rem; }
 h2 { font-size: 1.2rem; margin: 0 0 .3rem; }
 a { color: var(--link); }
-.about { color: var(--faint); margin: .2rem 0 2rem; }
+.occasion { color: var(--faint); }
 section { border-top: 1px solid var(--line); margin: 2rem 0 0; padding: 1.5rem 0 0; }
 section p { margin: 0 0 .6rem; }
 dt { font-weight: 600; }
@@ -79,21 +79,6 @@ std::optional<std::string> readText(const std::string& path) {
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-std::string processorName() {
-  std::ifstream cpus("/proc/cpuinfo");
-  for (std::string line; std::getline(cpus, line);) {
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  }
-  return "processor unknown";
-}
-
-std::string today() {
-  const std::time_t now = std::time(nullptr);
-  std::tm date{};
-  ::gmtime_r(&now, &date);
-  return print("%04d-%02d-%02d", date.tm_year + 1900, date.tm_mon + 1, date.tm_mday);
-}
-
 // A drawing holds its title and reading for those who see it alone; the page prints them as text.
 std::string withoutWords(std::string svg, const ChartWords& words) {
   const std::size_t drawing = svg.find("</desc>");
@@ -110,10 +95,11 @@ std::string sectionOf(const std::string& folder, const std::string& chart) {
   const std::string csv = "<a href=\"" + chart + ".csv\">" + chart + ".csv</a>";
   if (!svg)
     return "<section id=\"" + chart + "\">\n<h2>" + chart + "</h2>\n<p>Not drawn. " + csv + "</p>\n</section>\n";
-  const ChartWords words = wordsOf(*svg).value_or(ChartWords{chart, ""});
+  const ChartWords words = wordsOf(*svg).value_or(ChartWords{chart, "", ""});
   const std::size_t begin = std::min(svg->find("<svg"), svg->size());  // behind the XML declaration
   return "<section id=\"" + chart + "\">\n<h2>" + escaped(words.title) + "</h2>\n<p>" + escaped(words.reading) + " " +
-         csv + "</p>\n<div class=\"chart\">\n" + withoutWords(svg->substr(begin), words) + "</div>\n</section>\n";
+         csv + "</p>\n<p class=\"occasion\">" + escaped(words.occasion) + "</p>\n<div class=\"chart\">\n" +
+         withoutWords(svg->substr(begin), words) + "</div>\n</section>\n";
 }
 
 // A link to each section, by its heading.
@@ -129,10 +115,12 @@ std::string contentsOf(const std::string& sections) {
   return list + "</ul>\n";
 }
 
-bool isComplete(const Measurement& measurement, const std::string& folder) {
+bool isComplete(const Measurement& measurement, const MeasureOptions& options) {
   return std::all_of(measurement.charts.begin(), measurement.charts.end(), [&](const ChartEntry& chart) {
-    const std::string path = folder + "/" + chart.name;
-    return std::ifstream(path + ".svg").good() && std::ifstream(path + ".csv").good();
+    const std::string path = options.out + "/" + chart.name;
+    const auto words = wordsOf(readText(path + ".svg").value_or(""));
+    return words && !words->occasion.empty() && isOfQuickRun(words->occasion) == options.quick &&
+           std::ifstream(path + ".csv").good();
   });
 }
 
@@ -141,13 +129,12 @@ bool isComplete(const Measurement& measurement, const std::string& folder) {
 Outcome<void> writeReport(const MeasureOptions& options) {
   Outcome<void> first_failure;
   std::string page = kHead;
-  page += "<h1>relievo: measurements of touch</h1>\n<p class=\"about\">" + escaped(processorName()) + ", " + today() +
-          (options.quick ? ", quick run" : "") + "</p>\n";
+  page += "<h1>relievo: measurements of touch</h1>\n";
   std::string sections;
   const auto all = measurements();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Measurement& measurement = all[i];
-    if (!isComplete(measurement, options.out)) {
+    if (!isComplete(measurement, options)) {
       MeasureOptions part = options;
       part.tell = [&, i](const std::string& what) {
         options.tell(print("part %zu of %zu: ", i + 1, all.size()) + what);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "app/lab/chart/occasion.h"
 #include "app/lab/detail/detail.h"
 #include "app/lab/measure/bitrate.h"
 #include "app/lab/measure/edges.h"
@@ -87,7 +88,7 @@ Outcome<void> runMeasurement(const Measurement& measurement, const MeasureOption
     const auto& [name, better] = measurement.charts[i];
     own.tell(std::string("drawing ") + name);
     const ChartWords& told = words->at(i);
-    const ChartWords whole{told.title, told.reading + " Better: " + better + "."};
+    const ChartWords whole{told.title, told.reading + " Better: " + better + ".", occasionNow(options.quick)};
     if (auto drawn = drawChart(options.out, name, whole); !drawn) return drawn;
   }
   return {};

@@ -59,13 +59,14 @@ TEST(Chart, CarriesItsTitleAndReading) {
   std::ofstream(folder / "parts.csv")
       << "method,update_median_us,update_p999_us,percent_16_bit,percent_8_bit,percent_h264,percent_noise\n"
          "relievo,0.2,1,0.1,1,2,3\npenalty,0.1,0.3,7,30,33,80\n";
-  const ChartWords words{"A < B & \"C\"", std::string(200, 'x') + " and so on, in 5 \xc2\xb5s"};
+  const ChartWords words{"A < B & \"C\"", std::string(200, 'x') + " and so on, in 5 \xc2\xb5s", "R & D, 1999-12-31"};
   const auto drawn = drawChart(folder / ".", "parts", words);
   ASSERT_TRUE(drawn) << drawn.error().thing;
   const auto read = wordsOf(textOf(folder / "parts.svg"));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->title, words.title);
   EXPECT_EQ(read->reading, words.reading);
+  EXPECT_EQ(read->occasion, words.occasion);
   EXPECT_FALSE(wordsOf("<svg></svg>"));
 }
 
