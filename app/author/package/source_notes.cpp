@@ -67,6 +67,10 @@ std::vector<std::string> sourceNotes(const std::vector<LostPart>& lost, const Fi
     notes.push_back(print("%d more video %s left out; if the depth is one of them, save it to a file for --depth", more,
                           more == 1 ? "track is" : "tracks are"));
   }
+  if (!info.material_scale.empty() && format.material_width == 0) {
+    notes.emplace_back(
+        "the material track is left out: it begins after the first picture, or its codes are not of full range");
+  }
   tell(
       notes, counters.deinterlaced,
       " pictures were interlaced: each was made of its first field; for more detail deinterlace the source first, with "

@@ -8,12 +8,14 @@
 #include "app/author/material/painting.h"
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
+#include "app/author/package/source_notes.h"
 
 namespace relievo {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 std::vector<int> keysOf(int frames, double fps, const std::function<bool(int)>& depth_is_new) {
   KeyFrames keys;
@@ -69,6 +71,17 @@ TEST(AuthorProgress, LeavesOutWhatIsNotKnown) {
   EXPECT_EQ(progressText(1, 400, Duration(0)), "1/400 frames");
   // A container's length that turned out too short is ignored.
   EXPECT_EQ(progressText(401, 400, std::chrono::seconds(10)), "401 frames, 40.1 frames/s");
+}
+
+TEST(AuthorNotes, SayThatTheMaterialTrackIsLeftOut) {
+  FilmInfo info;
+  FilmFormat format;
+  const auto notes = [&] { return sourceNotes({}, info, {}, format, {}); };
+  EXPECT_THAT(notes(), IsEmpty());
+  info.material_scale.stiffness_n_per_mm = 1.0;
+  EXPECT_THAT(notes(), ElementsAre(HasSubstr("material track is left out")));
+  format.material_width = 320;
+  EXPECT_THAT(notes(), IsEmpty());
 }
 
 TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
