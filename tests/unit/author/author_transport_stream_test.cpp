@@ -138,6 +138,18 @@ TEST(TsPacer, SendsAtOnceWhatIsLateAndSaysHowLate) {
   EXPECT_EQ(line.sent[2].first, std::chrono::milliseconds(400));
 }
 
+// The counter has 33 bits: it begins again 95443.717 s after its 0.
+TEST(TsPacer, KeepsThePaceWhereTheReferencesBeginAgain) {
+  Line line;
+  for (const std::int64_t ms : {95'443'600, 95'443'700, 83, 183}) line.add(timedPacket(ms));
+  ASSERT_EQ(line.sent.size(), 3u);
+  EXPECT_EQ(line.sent[1].first, std::chrono::milliseconds(100));
+  EXPECT_NEAR(toSeconds(line.sent[2].first), 0.2, 1e-3);
+  EXPECT_TRUE(line.pacer.finish());
+  EXPECT_NEAR(toSeconds(line.sent[3].first), 0.3, 1e-3);
+  EXPECT_EQ(line.pacer.latest(), Duration(0));
+}
+
 TEST(TsPacer, GivesUpWhenItCannotSend) {
   ManualClock clock;
   TsPacer pacer(clock, [](std::span<const std::uint8_t>) { return false; });

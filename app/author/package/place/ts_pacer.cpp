@@ -7,6 +7,9 @@
 namespace relievo {
 namespace {
 
+// References count 33 bits of 90 kHz and begin again after 26.5 hours.
+constexpr Duration kLap{(std::int64_t{1} << 33) * 1'000'000 / 90};
+
 std::optional<Duration> referenceIn(std::span<const std::uint8_t> packet) noexcept {
   const auto byte = [&](std::size_t i) { return static_cast<std::int64_t>(packet[i]); };
   if ((byte(3) & 0x20) == 0 || byte(4) < 7 || (byte(5) & 0x10) == 0) return std::nullopt;
@@ -19,10 +22,15 @@ std::optional<Duration> referenceIn(std::span<const std::uint8_t> packet) noexce
 bool TsPacer::add(std::span<const std::uint8_t> packets) {
   for (; packets.size() >= kPacket; packets = packets.subspan(kPacket)) {
     const auto packet = packets.first(kPacket);
-    if (const auto reference = referenceIn(packet)) {
+    if (auto reference = referenceIn(packet)) {
       if (!start_) {
         start_ = clock_.now() - *reference;
         last_ = *reference;
+      }
+      *reference += laps_;
+      if (*reference < last_ - kLap / 2) {
+        *reference += kLap;
+        laps_ += kLap;
       }
       if (!letOut(*reference)) return false;
     }

@@ -34,7 +34,8 @@ class TsPacer {
   Send send_;
   std::vector<std::uint8_t> waiting_;
   std::optional<MonotonicTime> start_;  // the time of reference 0
-  Duration last_{0};                    // the last reference
+  Duration last_{0};                    // the last reference, with its laps
+  Duration laps_{0};                    // of the counter before it
   Duration latest_{0};
 };
 
