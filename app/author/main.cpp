@@ -260,6 +260,7 @@ int run(Arguments& a) {
   {
     ProgressLine line;
     const auto progress = [&line](std::uint64_t done, std::optional<std::uint64_t> total) {
+      line.count(done);
       line.show([&](Duration elapsed) { return progressText(done, total, elapsed); });
     };
     if (a.scene.empty()) {

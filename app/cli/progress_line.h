@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 
@@ -22,7 +23,7 @@ class ProgressLine {
   ProgressLine() : ProgressLine(systemClock(), ::isatty(STDERR_FILENO) == 1) {}
   // `clock` must outlive it.
   ProgressLine(const Clock& clock, bool on_terminal)
-      : clock_(clock), on_terminal_(on_terminal), start_(clock.now()), last_(start_) {}
+      : clock_(clock), on_terminal_(on_terminal), start_(clock.now()), last_(start_), counted_(start_) {}
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine() {
@@ -34,6 +35,12 @@ class ProgressLine {
   void show(Text&& text) {
     const Duration pause = !on_terminal_ ? kLogPause : shown_ ? kTerminalPause : Duration(0);
     if (clock_.now() - last_ >= pause) put(text(elapsed()));
+  }
+  // Of work in several passes: where `done` falls, a pass has begun, and with it the elapsed time.
+  void count(std::uint64_t done) {
+    if (done < done_) start_ = counted_;
+    done_ = done;
+    counted_ = clock_.now();
   }
   // On a terminal, prints at once: for steps that take long.
   void say(const std::string& text) {
@@ -57,8 +64,9 @@ class ProgressLine {
 
   const Clock& clock_;
   bool on_terminal_;
-  MonotonicTime start_, last_;
+  MonotonicTime start_, last_, counted_;
   bool shown_ = false;
+  std::uint64_t done_ = 0;
 };
 
 }  // namespace relievo

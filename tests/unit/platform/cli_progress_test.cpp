@@ -49,5 +49,16 @@ TEST(ProgressLine, OnATerminalIsWrittenOverAndGoneAtTheEnd) {
             "\r\033[Kfirst\r\033[Ka step\r\033[K300000000\r\033[K");
 }
 
+// As of a film of two views: surveyed, then matched.
+TEST(ProgressLine, CountsTheTimeOfEachPassByItself) {
+  ManualClock clock;
+  ProgressLine line(clock, true);
+  for (const std::uint64_t done : {1, 2, 3, 1, 2}) {
+    clock.advance(1s);
+    line.count(done);
+  }
+  EXPECT_EQ(line.elapsed(), 2s);
+}
+
 }  // namespace
 }  // namespace relievo
