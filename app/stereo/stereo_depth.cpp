@@ -8,6 +8,7 @@
 #include "app/stereo/block_matching.h"
 #include "app/stereo/edge_snapping.h"
 #include "app/stereo/hole_filling.h"
+#include "app/stereo/quick/outline_snapping.h"
 #include "app/stereo/quick/quick_matching.h"
 #include "app/stereo/quick/sub_pixel.h"
 
@@ -18,6 +19,28 @@ constexpr float kHighest = 65535;
 // Not OpenCV's semi-global matcher: on the sample film and two still lifes it loses up to 1.7 times as many steps, and
 // up to 2.3 times as many pixels are wrong by over two pixels.
 constexpr MatchingRule kRule{.slope = 8, .step = 80, .least_step = 25, .by_color = true, .diagonals = true};
+
+// The matcher keeps three bytes for each pixel and each disparity that it tries: 0.6 GB at most.
+constexpr double kMostCells = 2e8;
+
+DisparityMap matched(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
+  DisparityMap map = QuickMatching(kRule).match(left, right, range);
+  fillHoles(map, left);
+  snapEdges(map, left, right);
+  return map;
+}
+
+DisparityMap matchedReduced(const ViewPicture& left, const ViewPicture& right, DisparityRange range, ViewSize size) {
+  ViewPicture small_left, small_right;
+  reduce(left, size, small_left);
+  reduce(right, size, small_right);
+  const double scale = static_cast<double>(size.cols) / left.cols;
+  const DisparityRange small{static_cast<int>(std::floor(range.lowest * scale)),
+                             static_cast<int>(std::ceil(range.highest * scale))};
+  DisparityMap map(left.cols, left.rows);
+  enlarge(matched(small_left, small_right, small), small_left, left, map);
+  return map;
+}
 
 std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, DisparityRange range) {
   auto codes = std::make_shared<std::vector<std::uint16_t>>(map.size());
@@ -35,10 +58,15 @@ std::shared_ptr<std::vector<std::uint16_t>> flatCodes(std::size_t size) {
 
 }  // namespace
 
+ViewSize matchedSize(ViewSize view, DisparityRange range) {
+  const double levels = range.highest - range.lowest + 1, cells = levels * view.cols * view.rows;
+  const double scale = std::cbrt(std::min(1.0, kMostCells / cells));
+  return {std::max(1, static_cast<int>(view.cols * scale)), std::max(1, static_cast<int>(view.rows * scale))};
+}
+
 DisparityMap disparityOf(const ViewPicture& left, const ViewPicture& right, DisparityRange range) {
-  DisparityMap map = QuickMatching(kRule).match(left, right, range);
-  fillHoles(map, left);
-  snapEdges(map, left, right);
+  const ViewSize whole{left.cols, left.rows}, size = matchedSize(whole, range);
+  DisparityMap map = size == whole ? matched(left, right, range) : matchedReduced(left, right, range, size);
   SubPixel().refine(map, left, right);
   return map;
 }

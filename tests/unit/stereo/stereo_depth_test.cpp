@@ -57,6 +57,39 @@ TEST(StereoDepth, FindsTheBoardsOnBothSidesOfTheScreen) {
   EXPECT_LT(errors.median, 0.25);
 }
 
+TEST(StereoDepth, MatchesLargeViewsReducedSoThatMemoryHasALimit) {
+  EXPECT_EQ(matchedSize({1920, 1080}, {-40, 55}), (ViewSize{1920, 1080}));
+  for (const int levels : {240, 480, 960}) {
+    const ViewSize size = matchedSize({3840, 2160}, {-levels / 2, levels / 2 - 1});
+    EXPECT_NEAR(static_cast<double>(size.cols) / size.rows, 16.0 / 9, 0.01);
+    const double bytes = 3.0 * size.cols * size.rows * levels * size.cols / 3840;
+    EXPECT_LT(bytes, 0.605e9) << levels;
+    EXPECT_GT(bytes, 0.595e9) << levels;
+  }
+}
+
+TEST(StereoDepth, IsAsGoodInViewsThatAreMatchedReduced) {
+  TwoViews scene = boards(1600, 1000);
+  scene.boards[0].per_row = 0.004;  // nowhere before the boards
+  const DisparityRange range{-160, 160};
+  const ViewPicture left = readView(scene.left());
+  ASSERT_LT(matchedSize({left.cols, left.rows}, range).cols, 1300);
+  const DisparityMap map = disparityOf(left, readView(scene.right()), range);
+  ASSERT_EQ(map.cols, 1600);
+  ASSERT_EQ(map.rows, 1000);
+  std::vector<double> errors;
+  for (int r = 0; r < map.rows; ++r) {
+    for (int c = 0; c < map.cols; ++c)
+      errors.push_back(std::abs(static_cast<double>(map.pixels[map.at(c, r)]) - scene.disparity(c, r)));
+  }
+  const auto wrong = static_cast<double>(std::ranges::count_if(errors, [](double e) { return e > 2; }));
+  std::ranges::nth_element(errors, errors.begin() + std::ssize(errors) / 2);
+  const double share = wrong / static_cast<double>(errors.size()), median = errors[errors.size() / 2];
+  std::printf("wrong by over 2 pixels: %.2f %%, median %.3f pixels\n", 100 * share, median);
+  EXPECT_LT(share, 0.02);
+  EXPECT_LT(median, 0.25);
+}
+
 TEST(StereoDepth, IsAsGoodWithAViewTooLow) {
   const Errors errors = errorsWith({.down = 12});
   EXPECT_LT(errors.wrong, 0.04);  // 12 of the 200 rows are in the left view alone
