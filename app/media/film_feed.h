@@ -61,9 +61,9 @@ class FilmFeed {
   // Abandons whatever is open or being opened.
   void open(SourceOptions options);
   void close();
-  // Discards what was read ahead. Everything taken after the state has left Seeking lies at or after `target`. A newer
-  // target replaces one that has not been reached. Valid in Reading, Ended, Seeking and Reconnecting (where it takes
-  // effect once the source is back); ignored in other states. `key_step` as in PairReader::seek.
+  // Discards what was read ahead. What is taken after the state has left Seeking begins as PairReader::seek says. A
+  // newer target replaces one that has not been reached. Valid in Reading, Ended, Seeking and Reconnecting (where it
+  // takes effect once the source is back); ignored in other states. `key_step` as in PairReader::seek.
   void seek(MediaTime target, Duration key_step = Duration(0));
   [[nodiscard]] State state() const;
   // Like PairReader::leaveOut, before the next pair is read. Sound is then read ahead of late pictures.

@@ -143,9 +143,10 @@ class PairReader {
   // nullopt at the end of the colour. If the depth ends earlier, the remaining pairs have none.
   [[nodiscard]] Result<std::optional<FramePair>> next();
   // The next pair will be the first at or after `target` (frame-exact: earlier pictures are decoded and dropped), or
-  // nullopt beyond the end. Unsupported if the source cannot seek; the film then continues from where it was. With
-  // `key_step` over 0, only the colour's key frames follow, at least `key_step` apart, each with the depth key frame
-  // nearest before it; such pairs do not count as mismatched.
+  // nullopt beyond the end. Where that is more than a period after, or only sound is left, it is the last one before.
+  // Unsupported if the source cannot seek; the film then continues from where it was. With `key_step` over 0, only the
+  // colour's key frames follow, at least `key_step` apart, each with the depth key frame nearest before it; such pairs
+  // do not count as mismatched.
   [[nodiscard]] Result<void> seek(MediaTime target, Duration key_step = Duration(0));
   // Whether this error, returned by one of the functions above, means that the colour's source is gone and may come
   // back.

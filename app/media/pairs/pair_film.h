@@ -81,7 +81,8 @@ struct PairReader::Impl {
   [[nodiscard]] std::optional<FramePair> depthBefore(const Frame& color);
   Result<DepthFollower::Match> depthAt(MediaTime time);
   Result<void> seekDepth(MediaTime target);
-  Result<void> passTo(MediaTime target);
+  Result<std::optional<Frame>> passTo(MediaTime target);
+  [[nodiscard]] bool isGap(MediaTime target) const;
   void meet(const DepthSource::Session& session, MediaTime first);
   void loseDepth(const Error& error);
   void leaveColor();

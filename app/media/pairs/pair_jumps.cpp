@@ -6,19 +6,29 @@
 
 namespace relievo {
 
-// Drops the colour pictures before the target, and reads the depth along so that its packets do not pile up.
-Result<void> PairReader::Impl::passTo(MediaTime target) {
+// Drops the colour pictures before the target, and reads the depth along so that its packets do not pile up. Returns
+// the last of them.
+Result<std::optional<Frame>> PairReader::Impl::passTo(MediaTime target) {
+  std::optional<Frame> last;
   for (;;) {
     auto color = nextColor();
     if (!color) return std::unexpected(color.error());
-    if (!*color) return {};
+    if (!*color) return last;
     if ((*color)->pts >= target) {
       color_ahead.push_front(std::move(**color));
-      return {};
+      return last;
     }
     if (auto passed = depthAt((*color)->pts); !passed) return std::unexpected(passed.error());
     static_cast<void>(materialAt((*color)->pts));
+    last = std::move(*color);
   }
+}
+
+// Whether the picture before the target is the one to show there: the next is far, or only sound is left.
+bool PairReader::Impl::isGap(MediaTime target) const {
+  if (key_step != Duration(0)) return false;
+  if (color_ahead.empty()) return target < MediaTime(info.duration);
+  return color_ahead.front().pts > target + info.frame_period * 5 / 4;  // containers round their timestamps
 }
 
 // Call after the colour was sought, and with it a depth track of the same source.
@@ -42,7 +52,8 @@ Result<void> PairReader::Impl::goOn() {
   color_ahead.clear();
   if (depth_beside.track) depth->restart();
   material.restart();
-  return passTo(target);
+  if (auto passed = passTo(target); !passed) return std::unexpected(passed.error());
+  return {};
 }
 
 // Closes the colour source but keeps its counters.
@@ -63,7 +74,10 @@ Result<void> PairReader::seek(MediaTime target, Duration key_step) {
   impl_->left_out.jump();
   impl_->key_step = key_step;
   if (auto sought = impl_->seekDepth(target); !sought) return sought;
-  return impl_->passTo(target);
+  auto passed = impl_->passTo(target);
+  if (!passed) return std::unexpected(passed.error());
+  if (*passed && impl_->isGap(target)) impl_->color_ahead.push_front(std::move(**passed));
+  return {};
 }
 
 Result<void> PairReader::reopen() {

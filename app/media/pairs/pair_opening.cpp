@@ -211,7 +211,9 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
     auto described = describeTrack(**first);
     // With two live sources the second opens later; pictures of the first from before that are dropped.
     const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
-    return later ? passTo(begins) : described;
+    if (!later) return described;
+    if (auto passed = passTo(begins); !passed) return std::unexpected(passed.error());
+    return {};
   }
   const Error missing = first ? Error{ErrorCode::Corrupt, 0, kNoPicture} : first.error();
   if (isDepthRequired() || missing.code == ErrorCode::Cancelled) return failOn(depthUrl(), missing);

@@ -113,7 +113,8 @@ FilmPlayback::Progress FilmPlayback::filling() {
   if (!head_.filled() && !head_.last()) return Progress::Goes;
   if (head_.ahead().empty()) return overOrFailed();
   if (!hasReliefs()) return Progress::Goes;
-  const bool sounds = rate_ != 1 || feed_.hasSoundUntil(head_.ahead().front().color.pts + kSoundFirst);
+  const MediaTime from = std::max(head_.ahead().front().color.pts, target_.value_or(MediaTime{}));
+  const bool sounds = rate_ != 1 || feed_.hasSoundUntil(from + kSoundFirst);
   return sounds ? Progress::Ready : Progress::Goes;
 }
 
@@ -123,7 +124,7 @@ bool FilmPlayback::takeFirst() {
 }
 
 Result<void> FilmPlayback::start(MonotonicTime now) {
-  const MediaTime first = picture().color.pts;
+  const MediaTime first = std::max(picture().color.pts, target_.value_or(MediaTime{}));
   starved_ = false;
   target_.reset();
   clock_.reset();
@@ -131,6 +132,7 @@ Result<void> FilmPlayback::start(MonotonicTime now) {
   live_.begin(pace_.origin(), now);
   if (held_) return clock_.pause(now);
   played_.begin(first);
+  followSound(true);  // behind the last picture only sound is left: it must be under way before `going` looks for it
   return {};
 }
 
@@ -190,6 +192,7 @@ bool FilmPlayback::arriving(MonotonicTime now) {
   if (feed_.state() == FilmFeed::State::Seeking) return false;
   if (const auto refused = feed_.takeSeekError()) {
     notes_.refused(*refused);
+    target_.reset();
     setRate(1, now);
   }
   return true;
@@ -205,6 +208,7 @@ Result<void> FilmPlayback::resume(MonotonicTime now) {
   held_ = false;
   auto resumed = clock_.resume(now);
   if (const auto here = clock_.position(now)) played_.begin(*here);
+  followSound(true);  // as in `start`
   return resumed;
 }
 
@@ -241,7 +245,8 @@ void FilmPlayback::noteShown() {
 
 MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
-  if (!sample || sample->rate <= 0 || starved_) return MonotonicTime::max();
+  const bool over = head_.last() && head_.ahead().empty();
+  if (!sample || sample->rate <= 0 || starved_ || over) return MonotonicTime::max();
   if (isLive() && head_.ahead().empty()) return std::max(pace_.next(), now);
   if (head_.ahead().empty()) return now + period();
   return sample->when(head_.ahead().front().color.pts - (isLive() ? kMostBehind : Duration(0)));

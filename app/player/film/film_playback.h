@@ -72,7 +72,8 @@ class FilmPlayback {
   [[nodiscard]] Progress filling();
   // Makes the first picture after a start, a seek or an underrun the present one. True if it is the film's first.
   bool takeFirst();
-  // Starts the clock at the present picture, which is on the screen; paused if the film is held.
+  // Starts the clock at the present picture, which is on the screen, or where a seek within its time went; paused if
+  // the film is held.
   [[nodiscard]] Result<void> start(MonotonicTime now);
   // Makes the picture of this time the present one; returns how many pictures it moved on, with those stepped on to.
   [[nodiscard]] std::size_t advance(MonotonicTime now);
@@ -127,7 +128,7 @@ class FilmPlayback {
   // The depth of the coming pictures, for subtitles in front of it.
   [[nodiscard]] DepthComing coming() const;
   [[nodiscard]] std::optional<ClockSample> clock() const noexcept { return clock_.sample(); }
-  // When the next picture is due; MonotonicTime::max() while the film is paused or waits for it.
+  // When the next picture is due; MonotonicTime::max() while the film is paused, waits for it or has no more.
   [[nodiscard]] MonotonicTime nextPicture(MonotonicTime now) const;
   // The playing position; nullopt before the first picture.
   [[nodiscard]] std::optional<MediaTime> place(MonotonicTime now) const;

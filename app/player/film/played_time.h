@@ -2,6 +2,7 @@
 // Adds up the media time that was played, without pauses. Pure.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -17,7 +18,7 @@ class PlayedTime {
   // Playing stops at `here` (nullopt: position unknown, not counted). Does nothing if it has stopped already.
   void end(std::optional<MediaTime> here) noexcept {
     const auto begin = std::exchange(begin_, std::nullopt);
-    if (begin && here) total_ += *here - *begin;
+    if (begin && here) total_ += std::max(*here - *begin, Duration(0));
   }
   [[nodiscard]] Duration total() const noexcept { return total_; }
 

@@ -76,6 +76,24 @@ TEST_F(PlayerTransport, AStepBackShowsThePictureBeforeAndStands) {
   EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 3 + 1, 1);
 }
 
+// The picture of 3.96 s stands until 16 s.
+TEST_F(PlayerTransport, ASeekIntoALongPictureGoesOnFromThere) {
+  bench_.sources["film"] = PlayerBench::film(1000);
+  for (int k = 100; k < 400; ++k) {
+    for (MockTrack& track : bench_.sources["film"].tracks) track.missing.push_back(k);
+  }
+  bench_.press(18.0, KEY_PAUSE);
+  for (int i = 0; i < 3; ++i) bench_.press(19.0 + i, KEY_LEFT);
+  bench_.press(22.0, KEY_STOP);
+  playsWell();
+  ASSERT_THAT(bench_.report.seeks, SizeIs(3));
+  const std::array targets_s{13.0, 8.0, 3.0}, pictures_s{3.96, 3.96, 3.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(bench_.report.seeks[i].target_s, targets_s[i], 0.05) << i;
+    EXPECT_NEAR(bench_.report.seeks[i].picture_s.value_or(0), pictures_s[i], 0.05) << i;
+  }
+}
+
 TEST_F(PlayerTransport, WhereNothingIsPlayedTheDeviceIsAtRest) {
   bench_.config.stays = true;
   bench_.config.duration = std::chrono::seconds(8);

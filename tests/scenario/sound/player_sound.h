@@ -24,6 +24,7 @@ class PlayerSound : public testing::Test {
   PlayerSound() {
     bench_.with_haptic = false;
     bench_.audio.emplace();
+    bench_.config.osd = false;  // each picture is shown once
     bench_.display.shown = [this] {
       const MonotonicTime now = bench_.clock.now();
       std::optional<double> heard_s;

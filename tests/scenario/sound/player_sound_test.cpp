@@ -84,6 +84,25 @@ TEST_F(PlayerSound, SoundThatIsLongerThanThePicturePlaysToItsEnd) {
   EXPECT_THAT(bench_.report.faults, IsEmpty());
 }
 
+// The last picture stands, whether the film is sought to there or goes on there after a pause.
+TEST_F(PlayerSound, ItGoesOnBehindTheLastPicture) {
+  bench_.sources["film"] = PlayerBench::film(25);
+  bench_.sources["film"].tracks.push_back(PlayerBench::soundTrack(500));
+  bench_.press(0.5, KEY_FORWARD);
+  bench_.press(2.5, KEY_PAUSE);
+  bench_.press(5.5, KEY_PLAY);
+  bench_.config.osd = true;
+  bench_.press(6.5, KEY_VOLUMEUP);  // so that something is shown, and the sound then looked at
+  playsWell();
+  ASSERT_EQ(bench_.report.seeks.size(), 1u);
+  EXPECT_NEAR(bench_.report.seeks[0].target_s, 10.5, 0.05);
+  EXPECT_NEAR(bench_.report.seeks[0].picture_s.value_or(0), 0.96, 1e-6);
+  EXPECT_NEAR(bench_.report.wall_s, 13.0, 0.1) << "half a second, ten, and a pause of three";
+  const std::vector<Moment> late = takeMoments(6.5, 6.6);
+  ASSERT_FALSE(late.empty());
+  EXPECT_NEAR(late[0].heard_s.value_or(0), 13.5, 0.05);
+}
+
 // Ten minutes on a card whose crystal is off by 200 ppm: without correction, the sound would be 120 ms off at the end.
 class PlayerSoundDrift : public PlayerSound, public testing::WithParamInterface<double> {};
 INSTANTIATE_TEST_SUITE_P(Ppm, PlayerSoundDrift, testing::Values(200.0, -200.0),

@@ -52,11 +52,7 @@ TEST_P(Seeks, LandOnTheFirstPairAtOrAfterTheTarget) {
     ASSERT_TRUE(reader.seek(pairs[k].color.pts - Duration(1)).has_value());
     sameAs(k);
     ASSERT_TRUE(reader.seek(pairs[k].color.pts + Duration(1)).has_value());
-    if (k + 1 < count) {
-      sameAs(k + 1);
-    } else {
-      EXPECT_FALSE(reader.next().value().has_value());
-    }
+    sameAs(k + 1 < count ? k + 1 : k);  // the last one stands for its time
   }
   ASSERT_TRUE(reader.seek(mediaTime(-5)).has_value());
   sameAs(0);
@@ -108,6 +104,28 @@ TEST(PairReader, SeeksInTwoFilesAndInNumberedPictures) {
     EXPECT_EQ(pair.color.pts, MediaTime(k * milliseconds(40)));
     EXPECT_EQ(numberOf(pair.depth), k);
   }
+}
+
+// Pictures 10 and 20 are half a second and a second after the ones before.
+TEST(PairReader, ASeekIntoALongPictureFindsThatPicture) {
+  TemporaryFolder folder;
+  ClipTrack slides = color(25, 48);
+  slides.time = [](int k) { return milliseconds(40 * k + (k < 10 ? 0 : 460) + (k < 20 ? 0 : 960)); };
+  makeClip(folder / "a.mkv", {slides});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "a.mkv"}).has_value());
+  const auto foundAt = [&](int ms) {
+    EXPECT_TRUE(reader.seek(MediaTime(milliseconds(ms))).has_value());
+    const int first = numberOf(reader.next().value().value().color);
+    EXPECT_EQ(numberOf(reader.next().value().value().color), first + 1);
+    return first;
+  };
+  EXPECT_EQ(foundAt(360), 9);
+  EXPECT_EQ(foundAt(370), 9);
+  EXPECT_EQ(foundAt(850), 10) << "the next is near";
+  EXPECT_EQ(foundAt(860), 10);
+  EXPECT_EQ(foundAt(1300), 19);
+  EXPECT_EQ(foundAt(2000), 19);
 }
 
 TEST(PairReader, ASeekCountsNothingAsSkipped) {
