@@ -76,10 +76,11 @@ constexpr double kCodedWaves = 2;
 // the sphere and the face of relievo-lab speed-accuracy (noise of 1 %, widths of 2.4 to 3.8 mm: .03 to .05 %).
 constexpr double kFlattening = 5e-4;
 
-// Where the surface is straight, nothing is flattened by a broader level: twice as wide, it leaves half of the steps
-// and a quarter of the noise. Its control points then bend by less than half a step and by less than three standard
-// deviations of their noise; those of a ball of 45 mm, 6 mm apart, bend by .8 mm.
-constexpr double kBroadOverWide = 2, kStepsBend = 0.5, kNoiseBends = 3;
+// Where the surface is straight, nothing is flattened by a broader level: twice as wide, it leaves half of the steps;
+// under noise, 2.5 times as wide, less than a quarter. Its control points then bend by less than half a step and by
+// less than three standard deviations of their noise in one frame, by which ControlGrid judges them; those of a ball of
+// 45 mm, 6 mm apart, bend by .8 mm.
+constexpr double kBroadOverWide = 2, kBroadUnderNoise = 2.5, kStepsBend = 0.5, kNoiseBends = 3;
 
 // What noise of a standard deviation s leaves of the steps q, as dither does: the first harmonic of the sawtooth is
 // multiplied by the noise's characteristic function, exp(-2 pi^2 s^2/q^2) (Widrow and Kollar, Quantization Noise).
@@ -265,9 +266,9 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
   // Where the broad level's points lie on the waves' middle line, waves look straight.
   if (!fine && greatest(waves) <= steps) {
-    s.broad_mm = kBroadOverWide * s.wide_mm;
+    s.broad_mm = (noisy ? kBroadUnderNoise : kBroadOverWide) * s.wide_mm;
     const double samples = s.broad_mm / kSigmaPerPitch / apart(s.broad_mm, kBroadSamples);
-    s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * through * std::sqrt(kBendVariance) / samples;
+    s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
   }
 
   // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that

@@ -226,10 +226,14 @@ TEST(TouchPlan, WhatDiffersFromFrameToFrameIsNoWave) {
 
 TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {
   EXPECT_EQ(planFor(16, 0, true).scale.broad_mm, 0);
-  const FeltScale coarse = planFor(8, 0, true).scale, noisy = planFor(8, 0.4, true).scale;
+  const TouchPlan noise = planFor(8, 0.4, true);
+  const FeltScale coarse = planFor(8, 0, true).scale, noisy = noise.scale;
   EXPECT_EQ(coarse.broad_mm, 2 * coarse.wide_mm);
   EXPECT_NEAR(coarse.straight_mm, 40.0 / 255 / 2, 1e-9);
-  EXPECT_GT(noisy.straight_mm, 0.02) << "three deviations of what is left of .4 mm of noise in a block";
+  const double across = noisy.broad_mm / kSigmaPerPitch * 720 / 160;  // samples of a block, of which six rows are read
+  EXPECT_EQ(noisy.broad_mm, 2.5 * noisy.wide_mm);
+  EXPECT_NEAR(noisy.straight_mm, 3 * std::sqrt(6) * noise.measure.noise_mm / std::sqrt(6 * across), 1e-3)
+      << "three deviations of what a block of one frame leaves of the noise: frames are judged one by one";
   EXPECT_LT(noisy.straight_mm, 0.8) << "the bend of a ball of 45 mm";
 }
 
