@@ -20,6 +20,8 @@ struct FeltScale {
   double broad_mm = 0;  // of the broad level, used where the surface is straight; if not wider than wide, there is none
   double straight_mm = 0;  // second differences of the broad level's control points that count as straight
   double clamp_mm = 0.25;  // how far the wide level may deviate from the narrow one
+  // Of what the fitted spline adds to the B-spline in time: less than this is noise (TimeLaw::Adapted).
+  double narrow_steady_mm = 0, wide_steady_mm = 0;
   TimeLaw narrow_time = TimeLaw::Linear;
   TimeLaw wide_time = TimeLaw::Fitted;
   SpaceLaw space = SpaceLaw::BSpline;  // Quadratic or BSpline

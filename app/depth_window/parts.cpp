@@ -14,6 +14,8 @@ const char* name(TimeLaw law) noexcept {
       return "bspline";
     case TimeLaw::Fitted:
       return "fitted";
+    case TimeLaw::Adapted:
+      return "adapted";
     case TimeLaw::Mean:
       return "mean";
   }

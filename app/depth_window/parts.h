@@ -12,9 +12,10 @@ enum class TimeLaw : std::uint8_t {
   Linear,   // from the present frame to the buffered next one (paper, eq. 1)
   BSpline,  // cubic B-spline over the frames: smooth to the second derivative, but a low-pass; needs 1 more frame
   Fitted,   // cubic quasi-interpolating spline: reproduces the frames to the fourth order; needs 2 more
+  Adapted,  // the B-spline, and what the fitted spline adds to it where that is more than noise; needs 2 more
   Mean,     // the mean of five frame periods around the present: for frames that flicker; needs 2 more
 };
-[[nodiscard]] const char* name(TimeLaw law) noexcept;  // hold linear bspline fitted mean
+[[nodiscard]] const char* name(TimeLaw law) noexcept;  // hold linear bspline fitted adapted mean
 
 // The surface between samples.
 enum class SpaceLaw : std::uint8_t {

@@ -223,7 +223,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
     patch_holes_ = holes != 0;
     slots_read_ |= frames.wanted;
   }
-  weighted(height_, i0, j0, frames, out);
+  weighted(height_, i0, j0, frames.weight, out);
   if (!patch_holes_) return;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) out[static_cast<std::size_t>(j)][i] = withHoles(slotOf(i0 + i, j0 + j), frames);
@@ -231,12 +231,12 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
 }
 
 void ControlGrid::straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT {
-  weighted(straight_->of_points, i0, j0, frames, out);
+  weighted(straight_->of_points, i0, j0, frames.weight, out);
 }
 
-void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Frames& frames,
+void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Weights& weights,
                            Patch& out) const RELIEVO_RT {
-  const Float4 low = load4(frames.weight.data()), high = load4(frames.weight.data() + 4);
+  const Float4 low = load4(weights.data()), high = load4(weights.data() + 4);
   const auto blend = [&](int i, int j) RELIEVO_RT {
     const float* heights = of_points[slotOf(i, j)].data();
     return load4(heights) * low + load4(heights + 4) * high;

@@ -65,12 +65,13 @@ class ControlGrid {
   // The height of a point at a hole.
   [[nodiscard]] float pitMm() const RELIEVO_RT { return pit_mm_; }
 
+  using Weights = std::array<float, kFrames>;  // by slot
   // The weighted frames of one moment, by cache slot.
   struct Frames {
     const SurfaceWindow* window = nullptr;
     std::array<std::uint8_t, kFrames> frame_of_slot{};
-    std::uint32_t wanted = 0;                         // one bit per slot with a weight
-    alignas(16) std::array<float, kFrames> weight{};  // by slot
+    std::uint32_t wanted = 0;  // one bit per slot with a weight
+    alignas(16) Weights weight{};
   };
   // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
@@ -78,6 +79,11 @@ class ControlGrid {
   [[nodiscard]] bool wasPatch(int i0, int j0, std::uint32_t wanted) const RELIEVO_RT {
     return patch_ == Place{i0, j0, wanted};
   }
+  // The same points with other weights of the same frames; holes count as level.
+  void weighted(int i0, int j0, const Weights& weights, Patch& out) const RELIEVO_RT {
+    weighted(height_, i0, j0, weights, out);
+  }
+  [[nodiscard]] bool patchHasHoles() const RELIEVO_RT { return patch_holes_; }
   // How straight the same points are, 0 .. 1; after `patch` with the same frames.
   void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
   // Reads points around a place, of frames that will get a weight soon; stops once it has read `most` blocks, or those
@@ -117,7 +123,7 @@ class ControlGrid {
   [[nodiscard]] Lacking prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double bridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT;
-  void weighted(const Heights& of_points, int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
+  void weighted(const Heights& of_points, int i0, int j0, const Weights& weights, Patch& out) const RELIEVO_RT;
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;

@@ -37,7 +37,8 @@ struct SoftClamp {
 
 FeltSurface::FeltSurface(const FeltScale& scale) noexcept
     : scale_(scale),
-      narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened),
+      narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened,
+              nullptr, scale.narrow_steady_mm),
       smooth_(scale),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 
@@ -238,13 +239,13 @@ void FeltSurface::prepare(const SurfaceWindow& window, MediaTime next, double x_
                           const glm::dvec2& mm_per_s) RELIEVO_RT {
   constexpr Duration kStep = kPreparedWithin;
   next -= window.carried;
-  const FrameMoment moment(window, next), later(window, next + kStep);
+  const FrameMoment moment(window, next), later = moment.at(window, next + kStep);
   prepared_ = true;
   prepared_for_ = next;
   prepared_on_ = weighedAt(window, moment);
   if (two_levels_) followEdge(window, next, moment, x_mm, y_mm);
   // If a new frame begins in between, the later moment does not give the surface's rate of change.
-  const FrameMoment& comparable = later.present == moment.present ? later : moment;
+  const FrameMoment& comparable = later.share < 1 ? later : moment;
   narrow_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
   if (two_levels_) smooth_.prepare(slots_, x_mm, y_mm, moment, comparable, toSeconds(kStep));
   readAhead(window, next, moment, {x_mm, y_mm}, mm_per_s);

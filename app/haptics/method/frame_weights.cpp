@@ -1,42 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
-// Five laws of time as weights of six frames: two before the present one, itself, three after it.
+// The laws of time as polynomials for six frames: two before the present one, itself, three after it.
 #include "app/haptics/method/frame_weights.h"
 
 #include <algorithm>
 
+#include "app/haptics/method/float4.h"
 #include "platform/prefetch.h"
 
 namespace relievo {
 namespace {
 
-using Taps = std::array<double, 6>;  // frames present-2 .. present+3
+constexpr std::size_t kTaps = FrameTaps::kCount;
+// Polynomials in the share s, 0 .. 1, of the way from the present frame to the next: of[k][i] is the factor of s^k in
+// the weight of frame present - 2 + i.
+struct TapTable {
+  alignas(16) std::array<std::array<float, 8>, 4> of{};
+};
 
-// Uniform cubic B-spline at s in [0, 1) after the present frame (de Boor, A Practical Guide to Splines).
-Taps bspline(double s) RELIEVO_RT {
-  const double r = 1 - s, s2 = s * s, s3 = s2 * s;
-  return {0, r * r * r / 6, (4 - 6 * s2 + 3 * s3) / 6, (1 + 3 * s + 3 * s2 - 3 * s3) / 6, s3 / 6, 0};
-}
-
-// The same B-spline on coefficients c_k = f_k - (f_{k-1} - 2 f_k + f_{k+1})/6, which reproduces cubics exactly (de Boor
-// and Fix 1973, spline approximation by quasi-interpolants), expressed as weights of the frames.
-Taps fitted(double s) RELIEVO_RT {
-  const Taps b = bspline(s);
-  Taps taps{};
-  for (std::size_t i = 1; i <= 4; ++i) {
-    taps[i - 1] -= b[i] / 6;
-    taps[i] += b[i] * 4 / 3;
-    taps[i + 1] -= b[i] / 6;
-  }
-  return taps;
-}
-
+constexpr TapTable kHold{{{{0, 0, 1}}}};
+constexpr TapTable kLinear{{{{0, 0, 1}, {0, 0, -1, 1}}}};
+// Uniform cubic B-spline (de Boor, A Practical Guide to Splines).
+constexpr TapTable kBSpline{
+    {{{0, 1.F / 6, 4.F / 6, 1.F / 6}, {0, -0.5F, 0, 0.5F}, {0, 0.5F, -1, 0.5F}, {0, -1.F / 6, 0.5F, -0.5F, 1.F / 6}}}};
 // Five periods around the present: the oldest frame leaves as the newest comes.
-Taps mean(double s) RELIEVO_RT {
-  return {(1 - s) / 5, 0.2, 0.2, 0.2, 0.2, s / 5};
+constexpr TapTable kMean{{{{0.2F, 0.2F, 0.2F, 0.2F, 0.2F}, {-0.2F, 0, 0, 0, 0, 0.2F}}}};
+
+// The same B-spline on coefficients c_k = f_k - (f_{k-1} - 2 f_k + f_{k+1})/6 reproduces cubics exactly (de Boor and
+// Fix 1973, spline approximation by quasi-interpolants). What this adds, expressed as weights of the frames.
+constexpr TapTable kAdded = [] {
+  TapTable added;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& b = kBSpline.of[k];
+    for (std::size_t i = 0; i < kTaps; ++i) {
+      added.of[k][i] = ((i == 0 ? 0 : -b[i - 1]) + 2 * b[i] - b[i + 1]) / 6;
+    }
+  }
+  return added;
+}();
+constexpr TapTable kFitted = [] {
+  TapTable fitted;
+  for (std::size_t k = 0; k < 4; ++k) {
+    for (std::size_t i = 0; i < kTaps; ++i) fitted.of[k][i] = kBSpline.of[k][i] + kAdded.of[k][i];
+  }
+  return fitted;
+}();
+
+const TapTable& tableOf(TimeLaw law) RELIEVO_RT {
+  switch (law) {
+    case TimeLaw::Hold:
+      return kHold;
+    case TimeLaw::Linear:
+      return kLinear;
+    case TimeLaw::BSpline:
+    case TimeLaw::Adapted:
+      return kBSpline;
+    case TimeLaw::Fitted:
+      return kFitted;
+    case TimeLaw::Mean:
+      break;
+  }
+  return kMean;
 }
 
-Taps tapsOf(TimeLaw law, double s) RELIEVO_RT {
-  return law == TimeLaw::BSpline ? bspline(s) : law == TimeLaw::Fitted ? fitted(s) : mean(s);
+void evaluate(const TapTable& table, double share, FrameTaps& out) RELIEVO_RT {
+  const auto s = static_cast<float>(share);
+  for (std::size_t half = 0; half < 8; half += 4) {
+    const auto of = [&](std::size_t k) RELIEVO_RT { return load4(&table.of[k][half]); };
+    store4(&out.weight[half], ((of(3) * s + of(2)) * s + of(1)) * s + of(0));
+  }
 }
 
 }  // namespace
@@ -49,43 +80,44 @@ RELIEVO_TICK_CODE FrameMoment::FrameMoment(const SurfaceWindow& window, MediaTim
   first = last = present;
   while (first > 0 && frame(first - 1).shot == frame(present).shot) --first;
   while (last + 1 < window.count && frame(last + 1).shot == frame(present).shot) ++last;
-  if (now <= frame(present).time) return;
-  // After the last frame the spline settles within one period, as long as the previous one, and then holds.
-  const Duration period = present + 1 < window.count ? frame(present + 1).time - frame(present).time
-                          : present > 0              ? frame(present).time - frame(present - 1).time
-                                                     : Duration(0);
-  if (period > Duration(0)) share = std::min(toSeconds(now - frame(present).time) / toSeconds(period), 1.0);
+  *this = at(window, now);
 }
 
-FrameWeights frameWeights(const FrameMoment& moment, TimeLaw law) RELIEVO_RT {
+RELIEVO_TICK_CODE FrameMoment FrameMoment::at(const SurfaceWindow& window, MediaTime now) const RELIEVO_RT {
+  const auto time = [&](int i) { return window.frames[static_cast<std::size_t>(i)].time; };
+  FrameMoment moment = *this;
+  moment.share = 0;
+  if (now <= time(present)) return moment;
+  // After the last frame the spline settles within one period, as long as the previous one, and then holds.
+  const Duration period = present + 1 < window.count ? time(present + 1) - time(present)
+                          : present > 0              ? time(present) - time(present - 1)
+                                                     : Duration(0);
+  if (period > Duration(0)) moment.share = std::min(toSeconds(now - time(present)) / toSeconds(period), 1.0);
+  return moment;
+}
+
+FrameTaps::FrameTaps(const FrameMoment& moment, TimeLaw law) RELIEVO_RT {
+  evaluate(tableOf(law), moment.share, *this);
+}
+
+FrameTaps FrameTaps::addedByFitted(const FrameMoment& moment) RELIEVO_RT {
+  FrameTaps added;
+  evaluate(kAdded, moment.share, added);
+  return added;
+}
+
+FrameWeights frameWeights(const FrameMoment& moment, const FrameTaps& taps) RELIEVO_RT {
   FrameWeights weight{};
   if (moment.present < 0) return weight;
-  const auto give = [&](int i, double share) {
-    weight[static_cast<std::size_t>(std::clamp(i, moment.first, moment.last))] += static_cast<float>(share);
-  };
-  const double s = moment.share;
-  switch (law) {
-    case TimeLaw::Hold:
-      give(moment.present, 1);
-      break;
-    case TimeLaw::Linear:
-      give(moment.present, 1 - s);
-      give(moment.present + 1, s);
-      break;
-    case TimeLaw::BSpline:
-    case TimeLaw::Fitted:
-    case TimeLaw::Mean: {
-      const Taps taps = tapsOf(law, s);
-      for (int i = 0; i < 6; ++i) give(moment.present - 2 + i, taps[static_cast<std::size_t>(i)]);
-      break;
-    }
+  for (int i = 0; i < static_cast<int>(kTaps); ++i) {
+    weight[FrameTaps::frame(moment, i)] += taps.weight[static_cast<std::size_t>(i)];
   }
   return weight;
 }
 
 FrameWeights carriedWeights(const SurfaceWindow& window, const FrameMoment& moment, TimeLaw law,
                             Duration carried) RELIEVO_RT {
-  FrameWeights weight = frameWeights(moment, law);
+  FrameWeights weight = frameWeights(moment, FrameTaps(moment, law));
   if (moment.present < 0) return weight;
   // The slope from frame i - 1 to frame i, times `share` of the duration.
   const auto go = [&](int i, double share) RELIEVO_RT {

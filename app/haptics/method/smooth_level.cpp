@@ -29,9 +29,10 @@ SurfacePoint shareOf(const SurfacePoint& t) RELIEVO_RT {
 
 SmoothLevel::SmoothLevel(const FeltScale& scale) noexcept
     : straight_{.most_mm = static_cast<float>(scale.straight_mm)},
-      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept),
+      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept, nullptr,
+            scale.wide_steady_mm),
       broad_(scale.broad_mm, kBroadSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept,
-             scale.straight_mm > 0 ? &straight_ : nullptr),
+             scale.straight_mm > 0 ? &straight_ : nullptr, scale.wide_steady_mm),
       has_broad_(scale.broad_mm > scale.wide_mm && scale.straight_mm > 0) {}
 
 void SmoothLevel::setPicture(const HeightField& field) RELIEVO_RT {

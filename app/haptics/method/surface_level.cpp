@@ -29,6 +29,7 @@ constexpr std::array<Float4, 4> kQuadratic{Float4{0.125F, 0.75F, 0.125F, 0}, Flo
                                            Float4{0.5F, -1, 0.5F, 0}, Float4{0, 0, 0, 0}};
 
 constexpr float kMostCarriedMm = 2;
+constexpr float kLeast = 1e-30F;  // instead of 0, to divide by
 
 TimeLaw fewerFrames(TimeLaw law) RELIEVO_RT {
   return framesAhead(law) > framesAhead(TimeLaw::BSpline) ? TimeLaw::BSpline
@@ -45,13 +46,14 @@ int below(double v) RELIEVO_RT {
 }  // namespace
 
 SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-                           ControlGrid::StraightPoints* straight) noexcept
+                           ControlGrid::StraightPoints* straight, double steady_mm) noexcept
     : grid_(sigma_mm / kSigmaPerPitch, most_samples,
             curvature == Curvature::Flattened ? 0
             : space == SpaceLaw::Quadratic    ? 1.F / 6
                                               : 5.F / 24,
             straight),
       time_(time),
+      steady_mm_(static_cast<float>(steady_mm)),
       cubic_(space != SpaceLaw::Quadratic),
       tells_straight_(straight != nullptr) {}
 
@@ -59,25 +61,29 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
 // besides bit by bit (`readLacking`): until then the surface in time is that of fewer frames.
 void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT {
   const auto several = [](std::uint32_t bits) RELIEVO_RT { return (bits & (bits - 1)) != 0; };
-  out.moment = moment;
-  out.law = time_;
-  place(slots, frameWeights(moment, out.law), out.frames);
+  weighBy(time_, slots, moment, out);
   while (out.law != TimeLaw::Hold && several(out.frames.wanted & ~grid_.slotsRead())) {
-    out.law = fewerFrames(out.law);
-    place(slots, frameWeights(moment, out.law), out.frames);
+    weighBy(fewerFrames(out.law), slots, moment, out);
   }
 }
 
-void SurfaceLevel::place(const FrameSlots& slots, const FrameWeights& weights,
-                         ControlGrid::Frames& frames) const RELIEVO_RT {
+void SurfaceLevel::weighBy(TimeLaw law, const FrameSlots& slots, const FrameMoment& moment,
+                           Weighed& out) const RELIEVO_RT {
+  out.moment = moment;
+  out.law = law;
+  ControlGrid::Frames& frames = out.frames;
   frames.window = slots.window;
   frames.frame_of_slot = slots.frame;
   frames.weight.fill(0);
   frames.wanted = 0;
-  for (std::size_t f = 0; f < static_cast<std::size_t>(slots.window->count); ++f) {
-    if (weights[f] == 0) continue;
-    frames.weight[slots.of_frame[f]] += weights[f];
-    frames.wanted |= 1U << slots.of_frame[f];
+  out.added.fill(0);
+  const FrameTaps taps(moment, law), added = law == TimeLaw::Adapted ? FrameTaps::addedByFitted(moment) : FrameTaps{};
+  for (std::size_t i = 0; i < FrameTaps::kCount; ++i) {
+    if (taps.weight[i] == 0 && added.weight[i] == 0) continue;
+    const std::uint8_t slot = slots.of_frame[FrameTaps::frame(moment, static_cast<int>(i))];
+    frames.weight[slot] += taps.weight[i];
+    out.added[slot] += added.weight[i];
+    frames.wanted |= 1U << slot;
   }
 }
 
@@ -88,8 +94,14 @@ RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighe
   grid_.patch(cell.i, cell.j, weighed.frames, out);
   const Duration carried = slots.window->carried;
   if (carried == Duration(0)) return;
-  ControlGrid::Frames frames;
-  place(slots, carriedWeights(*slots.window, weighed.moment, weighed.law, carried), frames);
+  ControlGrid::Frames frames = weighed.frames;
+  const FrameWeights weights = carriedWeights(*slots.window, weighed.moment, weighed.law, carried);
+  frames.weight.fill(0);
+  for (std::size_t f = 0; f < static_cast<std::size_t>(slots.window->count); ++f) {
+    if (weights[f] == 0) continue;
+    frames.weight[slots.of_frame[f]] += weights[f];
+    frames.wanted |= 1U << slots.of_frame[f];
+  }
   Patch there;
   grid_.patch(cell.i, cell.j, frames, there);
   for (std::size_t j = 0; j < 4; ++j) {
@@ -97,6 +109,20 @@ RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighe
       const float way = there[j][i] - out[j][i], size = std::abs(way);
       out[j][i] += std::copysign(std::max(std::min(size, 2 * kMostCarriedMm - size), 0.F), way);
     }
+  }
+}
+
+// Adds x^5/(s^4 + x^4) of what the fitted spline adds, x: nothing of what is less than s by far, all of what is more.
+// All derivatives are continuous, so that the surface stays as smooth in time as the splines are.
+RELIEVO_TICK_CODE void SurfaceLevel::addWhereUnsteady(const Weighed& weighed, const Cell& cell,
+                                                      Patch& out) const RELIEVO_RT {
+  if (weighed.law != TimeLaw::Adapted || grid_.patchHasHoles()) return;
+  Patch added;
+  grid_.weighted(cell.i, cell.j, weighed.added, added);
+  const float steady2 = steady_mm_ * steady_mm_, steady4 = std::max(steady2 * steady2, kLeast);
+  for (std::size_t j = 0; j < 4; ++j) {
+    const Float4 square = added[j] * added[j], fourth = square * square;
+    out[j] += added[j] * fourth / (steady4 + fourth);
   }
 }
 
@@ -126,6 +152,7 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
     if (!is_weighed_) weigh(*slots_, moment_, weighed_);
     is_weighed_ = true;
     blend(*slots_, weighed_, cell, patch_.points);
+    addWhereUnsteady(weighed_, cell, patch_.points);
     if (tells_straight_) readStraightness(cell, straight_);
   }
   patch_.i = cell.i;
@@ -208,17 +235,21 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
-  Weighed then;
-  weigh(slots, later, then);
   weigh(slots, next, weighed_);
+  // The rate leaves out what is added to the B-spline, which hardly changes between two ticks.
+  Weighed then;
+  weighBy(weighed_.law == TimeLaw::Adapted ? TimeLaw::BSpline : weighed_.law, slots, later, then);
+  then.frames.wanted |= weighed_.frames.wanted;
   blend(slots, then, cell, prepared_rate_);
   blend(slots, weighed_, cell, prepared_);
+  const Patch plain = prepared_;
+  addWhereUnsteady(weighed_, cell, prepared_);
   if (weighed_.law != time_) readLacking(slots, next, cell);
   if (tells_straight_) readStraightness(cell, prepared_straight_);
   // A point where a hole opens or closes between the two frames jumps, so it has no rate.
   const Float4 pit = Float4{} + grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
-    const Float4 here = prepared_[j], then_there = prepared_rate_[j];
+    const Float4 here = plain[j], then_there = prepared_rate_[j];
     const auto jumps = (then_there == pit) != (here == pit);
     prepared_rate_[j] = jumps ? Float4{} : (then_there - here) / static_cast<float>(step_s);
   }
@@ -227,8 +258,9 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
 // A few blocks of the first frame that the law needs and of which none have been read.
 void SurfaceLevel::readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
   constexpr int kBlocksAtOnce = 8;
-  ControlGrid::Frames frames;
-  place(slots, frameWeights(moment, time_), frames);
+  Weighed all;
+  weighBy(time_, slots, moment, all);
+  ControlGrid::Frames& frames = all.frames;
   frames.wanted &= ~grid_.slotsRead();
   frames.wanted &= ~frames.wanted + 1;
   if (frames.wanted != 0) grid_.readAhead(cell.i, cell.j, frames, kBlocksAtOnce);

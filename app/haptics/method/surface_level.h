@@ -35,7 +35,7 @@ class SurfaceLevel {
   enum class Curvature : std::uint8_t { Flattened, Kept };
   // `straight`: of ControlGrid; null if `straightness` is not asked for.
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-               ControlGrid::StraightPoints* straight = nullptr) noexcept;
+               ControlGrid::StraightPoints* straight = nullptr, double steady_mm = 0) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
@@ -87,20 +87,23 @@ class SurfaceLevel {
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
   void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
-  void place(const FrameSlots& slots, const FrameWeights& weights, ControlGrid::Frames& frames) const RELIEVO_RT;
   // Frames with their weights at a moment, by a law.
   struct Weighed {
     FrameMoment moment;
     TimeLaw law = TimeLaw::Hold;
     ControlGrid::Frames frames;
+    alignas(16) ControlGrid::Weights added{};  // weights of what TimeLaw::Adapted may add
   };
   void weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
+  void weighBy(TimeLaw law, const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
   // The points so weighted; carried forward if the window says so.
   void blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
+  void addWhereUnsteady(const Weighed& weighed, const Cell& cell, Patch& out) const RELIEVO_RT;
   void readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;
+  float steady_mm_;
   bool cubic_, tells_straight_;
 
   const FrameSlots* slots_ = nullptr;

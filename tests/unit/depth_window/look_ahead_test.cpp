@@ -36,14 +36,15 @@ TEST(LookAhead, IsNotCarriedFurtherThanAnOldSurfaceIsOff) {
 }
 
 TEST(LookAhead, OfThePlansLawsThoseRemainThatNeedNoMoreFrames) {
-  for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
+  for (const TimeLaw law :
+       {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Adapted, TimeLaw::Mean}) {
     EXPECT_EQ(lawWithin(law, 3), law);
     for (const int frames : {1, 2, 3}) EXPECT_LE(framesAhead(lawWithin(law, frames)), frames) << name(law) << frames;
   }
   const ClipMeasure coarse{.frames = 4, .quantum_mm = 0.157, .sample_mm = 0.22, .period_s = 1.0 / 30};
   const FeltScale whole = planTouch(coarse).scale;
   const TouchPlan live = planTouch(coarse, {1, Duration(0)}), carried = planTouch(coarse, {1, milliseconds(30)});
-  EXPECT_EQ(whole.wide_time, TimeLaw::BSpline);
+  EXPECT_EQ(whole.wide_time, TimeLaw::Adapted);
   EXPECT_EQ(live.scale.wide_time, TimeLaw::Linear);
   EXPECT_EQ(live.reason.find("carried"), std::string::npos);
   EXPECT_NE(carried.reason.find(", carried forward by 30 ms"), std::string::npos) << carried.reason;

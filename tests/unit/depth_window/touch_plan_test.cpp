@@ -52,7 +52,8 @@ TEST(TouchPlan, TakesWhatTheClipNeedsAndNoMore) {
   EXPECT_NEAR(coarse.measure.speed_mm_per_s, 15, 5);
   EXPECT_GT(coarse.scale.wide_mm, 0.8);
   EXPECT_NEAR(noisy.measure.noise_mm, 0.4, 0.06);
-  EXPECT_EQ(noisy.scale.wide_time, TimeLaw::BSpline);
+  EXPECT_EQ(noisy.scale.wide_time, TimeLaw::Adapted);
+  EXPECT_GT(noisy.scale.wide_steady_mm, 1.5 * coarse.scale.wide_steady_mm);
   EXPECT_GT(noisy.scale.clamp_mm, fine.scale.clamp_mm);
   EXPECT_TRUE(still.measure.still);
   EXPECT_NE(still.scale.wide_time, TimeLaw::Hold) << "a film that begins still may move later";
@@ -128,13 +129,21 @@ TEST(TouchPlan, WhatIsPaintedAtTheEndsOfTheRangeHasNoSay) {
 // A spline in time flattens a nod by the square of the frame period.
 TEST(TouchPlan, SmoothsStepsInTimeWhereFramesAreQuick) {
   ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
-  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline);
+  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::Adapted);
   steps.period_s = 1.0 / 15;
   EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::Fitted);
   steps.noise_mm = 0.4;
-  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::BSpline) << "noise is worse";
+  EXPECT_EQ(planTouch(steps).scale.wide_time, TimeLaw::Adapted) << "noise is worse";
 }
 
+// What a codec makes of the steps moves more from frame to frame than rounding does.
+TEST(TouchPlan, StepsOfACodecCountAsSteadyUpToMore) {
+  ClipMeasure steps{.frames = 4, .quantum_mm = 40.0 / 255, .sample_mm = 0.22, .period_s = kPeriod};
+  const double rounded = planTouch(steps).scale.wide_steady_mm;
+  EXPECT_NEAR(rounded, 0.12 * 40 / 255, 1e-9);
+  steps.ripples = 0.01;
+  EXPECT_NEAR(planTouch(steps).scale.wide_steady_mm, 3 * rounded, 1e-9);
+}
 // Where a share e of the worst slope's q/(5.06 w) and the flattening's .0005 w^4 grow as fast, w^5 = e q/(2 x 5.06 x
 // .0005); the search goes in steps of 2 %. e is 1/2 for rounded depth, and four times that where a codec was at work.
 TEST(TouchPlan, TheWidthSuitsTheStepsAndWhatACodecMadeOfThem) {

@@ -228,7 +228,7 @@ TEST(FeltSurface, FramesThatComeTogetherAreReadInSeveralTicks) {
     if (!s.hasReadAFrame()) s.prepare(w, mediaTime(t + 0.001), here, there);
     return std::pair(z, s.blocksRead() - before);
   };
-  for (const TimeLaw law : {TimeLaw::BSpline, TimeLaw::Mean}) {
+  for (const TimeLaw law : {TimeLaw::BSpline, TimeLaw::Adapted, TimeLaw::Mean}) {
     FeltSurface in_time({.narrow_time = law, .wide_time = law}), late({.narrow_time = law, .wide_time = law});
     std::uint64_t one_frame = 0;
     for (double t = 0; t < 0.135; t += 0.001) {
@@ -273,8 +273,9 @@ TEST(FeltSurface, MotionAfterStillnessIsTheMotionThatItWas) {
   ASSERT_TRUE(frames[5].repeats && !frames[12].repeats && frames[20].repeats);
   auto unmarked = frames;
   for (TimedSurface& f : unmarked) f.repeats = false;
-  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
-    FeltSurface merged({.narrow_time = law, .wide_time = law}), plain({.narrow_time = law, .wide_time = law});
+  for (const TimeLaw law : {TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Adapted, TimeLaw::Mean}) {
+    const FeltScale scale{.narrow_steady_mm = 0.05, .wide_steady_mm = 0.05, .narrow_time = law, .wide_time = law};
+    FeltSurface merged(scale), plain(scale);
     for (double t = 0; t < 0.75; t += 0.001) {
       const glm::dvec2 here = strokeAt(t), next = strokeAt(t + 0.001);
       const SurfaceWindow w = windowAt(frames, t), u = windowAt(unmarked, t);

@@ -20,8 +20,12 @@ SurfaceWindow emptyFrames(int count) {
   return w;
 }
 
+FrameWeights weightsOf(const FrameMoment& moment, TimeLaw law) {
+  return frameWeights(moment, FrameTaps(moment, law));
+}
+
 double at(const SurfaceWindow& w, TimeLaw law, double t, const std::vector<double>& values) {
-  const FrameWeights weights = frameWeights(FrameMoment(w, mediaTime(t)), law);
+  const FrameWeights weights = weightsOf(FrameMoment(w, mediaTime(t)), law);
   return std::inner_product(values.begin(), values.end(), weights.begin(), 0.0);
 }
 
@@ -38,6 +42,10 @@ TEST(FrameWeights, EveryLawGivesALineBackAndTheFittedOneACubic) {
       ASSERT_NEAR(at(w, law, k * kPeriod, line), 3 - 0.5 * k, 1e-5) << name(law) << ' ' << k;
     }
     ASSERT_NEAR(at(w, TimeLaw::Fitted, k * kPeriod, cubic), c(k), 1e-4) << k;
+    const FrameMoment moment(w, mediaTime(k * kPeriod));
+    const FrameWeights added = frameWeights(moment, FrameTaps::addedByFitted(moment));
+    const double adds = std::inner_product(cubic.begin(), cubic.end(), added.begin(), 0.0);
+    ASSERT_NEAR(at(w, TimeLaw::Adapted, k * kPeriod, cubic) + adds, c(k), 1e-4) << k;
     ASSERT_EQ(at(w, TimeLaw::Hold, k * kPeriod, line), 3 - 0.5 * std::floor(k + 1e-9)) << k;
   }
   EXPECT_GT(std::abs(at(w, TimeLaw::BSpline, 3.0 * kPeriod, cubic) - c(3)), 0.1) << "a B-spline smooths";
@@ -65,7 +73,8 @@ TEST(FrameWeights, AShotsFirstAndLastFramesHoldAndNothingComesFromBeyondACut) {
   for (std::size_t k = 4; k < 8; ++k) w.frames[k].shot = 1;
   const std::vector<double> values{1, 1, 1, 1, 9, 9, 9, 9};
   for (double k = 0; k < 7.9; k += 0.09) {
-    for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
+    for (const TimeLaw law :
+         {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Adapted, TimeLaw::Mean}) {
       ASSERT_NEAR(at(w, law, k * kPeriod, values), k + 1e-6 < 4 ? 1 : 9, 1e-5) << name(law) << ' ' << k;
     }
   }
@@ -86,11 +95,12 @@ TEST(FrameWeights, TheLastFrameIsReachedWithinAPeriodAndThenHolds) {
 
 TEST(FrameWeights, BeforeTheFirstFrameAndOnAPictureItIsTheFirst) {
   const SurfaceWindow film = emptyFrames(3), picture = emptyFrames(1);
-  for (const TimeLaw law : {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean}) {
+  for (const TimeLaw law :
+       {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Adapted, TimeLaw::Mean}) {
     EXPECT_NEAR(at(film, law, -1, {1, 1, 9}), at(film, law, 0, {1, 1, 9}), 1e-6) << name(law);
     EXPECT_NEAR(at(picture, law, 7, {3}), 3, 1e-5) << name(law);
   }
-  EXPECT_EQ(frameWeights(FrameMoment(SurfaceWindow{}, {}), TimeLaw::Fitted), FrameWeights{}) << "no frame at all";
+  EXPECT_EQ(weightsOf(FrameMoment(SurfaceWindow{}, {}), TimeLaw::Fitted), FrameWeights{}) << "no frame at all";
 }
 
 }  // namespace
