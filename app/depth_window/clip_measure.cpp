@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Robust measurements on a lattice of places.
+#include "app/depth_window/clip_measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "app/depth_window/flicker.h"
+#include "app/depth_window/lattice.h"
+#include "app/depth_window/ripples.h"
+
+namespace relievo {
+namespace {
+
+constexpr double kEdgeMm = 3.0;
+constexpr double kRoundingMm = 1e-6;
+constexpr int kWideBlock = 64;  // wide enough to tell whether its rows are read whole
+
+// For normally distributed noise the median of the magnitude is 0.6745 standard deviations; the
+// second difference of three samples has 1 + 4 + 1 times their variance.
+constexpr double kMedianOfNormal = 0.6745;
+// The noise that these two factors compute from a second difference of one step: 1/(0.6745 sqrt(6)) = 0.605 of the
+// step, rounded up so that no quantisation counts as noise.
+constexpr double kStepAsNoise = 0.61;
+// A still sample moves by less than this multiple of its noise between frames at 19 of 20 places: 1.96 sqrt(2) = 2.77.
+constexpr double kNoiseAsMotion = 2.8;
+
+// In the smooth scenes of relievo-lab, rounded to 8 bits, no step is a ripple; after H.264 at crf 18 to 28 .0024 and
+// more are, but for a plane so shallow that it has hardly any steps. Waves of one or two steps have narrow tops, which
+// are ripples too: .022 and more. A codec that leaves as many leaves little else.
+constexpr double kRipplesOfCodec = 0.001, kRipplesOfWaves = 0.02;
+
+// The quantile of the list; 0 if it is empty.
+double quantile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// What the samples of a row tell, in mm that a step of code has on average: under the inverse law a step is higher far
+// away (HeightField::stretchAt), and the number of codes between two samples tells steps and noise.
+struct Across {
+  std::vector<double> bends;
+  std::size_t edges = 0;
+  double quantum = std::numeric_limits<double>::infinity();
+  double stretch2 = 0;  // sum of the squares
+};
+
+// A smooth surface is straight across neighbouring samples of a row, so the second difference is noise with 6 times its
+// variance; the median ignores edges.
+void lookAcross(const HeightField& field, Across& found) {
+  Lattice::forPlaces(field, [&](int c, int r) {
+    const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
+    // Values at either end of the range are often painted and free of noise.
+    if (std::isnan(left + here + right) || here <= 0 || here >= field.depthMm()) return;
+    // From one height to another, steps are as high as halfway between them, in the geometric mean.
+    const auto stretch = [&](double a, double b) { return std::sqrt(field.stretchAt(a) * field.stretchAt(b)); };
+    const double before = (here - left) / stretch(left, here), after = (right - here) / stretch(here, right);
+    const double bend = std::abs(after - before);
+    found.bends.push_back(bend);
+    found.stretch2 += field.stretchAt(here) * field.stretchAt(here);
+    // On a steep slope every step exceeds one quantum, but the differences between steps do not.
+    for (const double d : {std::abs(after), bend}) {
+      if (d > kRoundingMm && d < kEdgeMm) found.quantum = std::min(found.quantum, d);
+    }
+    if (std::max(std::abs(right - here), std::abs(here - left)) > kEdgeMm) ++found.edges;
+  });
+}
+
+void lookAhead(const TimedSurface& from, const TimedSurface& to, std::vector<double>& speeds, bool& still) {
+  const double period = toSeconds(to.time - from.time);
+  Lattice::forPlaces(from.field, [&](int c, int r) {
+    const double moved = std::abs(to.field.heightMm(c, r) - from.field.heightMm(c, r));
+    if (std::isnan(moved)) return;
+    speeds.push_back(moved / period);
+    if (moved > 0) still = false;
+  });
+}
+
+}  // namespace
+
+ClipMeasure measureClip(std::span<const TimedSurface> frames) {
+  ClipMeasure m;
+  m.frames = static_cast<int>(frames.size());
+  if (frames.empty()) return m;
+  Across across;
+  std::vector<double> speeds;
+  m.still = true;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    lookAcross(frames[i].field, across);
+    if (i > 0 && frames[i].shot == frames[i - 1].shot) lookAhead(frames[i - 1], frames[i], speeds, m.still);
+  }
+  if (frames.size() > 1) {
+    m.period_s = toSeconds(frames.back().time - frames.front().time) / static_cast<double>(frames.size() - 1);
+  }
+  const GridMapping& grid = frames.front().field.grid();
+  m.sample_mm = 1 / std::sqrt(std::abs(grid.u_per_mm * grid.v_per_mm));
+  m.quantum_mm = frames.front().field.stepMm();
+  m.whole_rows = frames.front().field.blockOf(kWideBlock, kWideBlock, 1).across.count == kWideBlock;
+  if (across.bends.empty()) return m;  // every value is at an end of the range, so later values are unknown
+  const auto places = static_cast<double>(across.bends.size());
+  m.edges = static_cast<double>(across.edges) / places;
+  m.flicker_mm = flickerMm(frames);
+  m.ripples = ripplesOf(frames);
+  // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
+  const double deviation = quantile(across.bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
+  const double quantum = std::isfinite(across.quantum) ? across.quantum : m.quantum_mm;
+  const double of_quantum = kStepAsNoise * quantum;
+  const double noise = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
+  const double stretch = std::sqrt(across.stretch2 / places);
+  m.quantum_mm = stretch * quantum;
+  m.noise_mm = stretch * noise;
+  m.waves_mm = wavesOf(frames, stepsUnderNoise(m), m.noise_mm, m.still);
+  m.speed_mm_per_s =
+      std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
+  return m;
+}
+
+bool isCoded(const ClipMeasure& m) {
+  const bool of_waves = m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > stepsUnderNoise(m);
+  return m.ripples > kRipplesOfCodec && !of_waves;
+}
+
+// What noise of a standard deviation s leaves of the steps q, as dither does: the first harmonic of the sawtooth is
+// multiplied by the noise's characteristic function, exp(-2 pi^2 s^2/q^2) (Widrow and Kollar, Quantization Noise).
+double stepsUnderNoise(const ClipMeasure& m) {
+  if (m.quantum_mm <= 0) return 0;
+  const double turn = 2 * std::numbers::pi * m.noise_mm / m.quantum_mm;
+  return m.quantum_mm * std::exp(-turn * turn / 2);
+}
+
+}  // namespace relievo
