@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 // The desktop's folder of pictures, else the current folder.
 fs::path picturesFolder() {
-  const fs::path told = namedFolder("XDG_PICTURES_DIR"), home = namedFolder("HOME");
+  fs::path told = namedFolder("XDG_PICTURES_DIR");
+  const fs::path home = namedFolder("HOME");
   if (!told.empty() && isFolder(told)) return told;
   if (!home.empty() && isFolder(home / "Pictures")) return home / "Pictures";
   return ".";
