@@ -24,6 +24,7 @@ constexpr std::array kTransitions{
 
     Transition{S::Idle, E::Open, S::Opening},
     Transition{S::Idle, E::Browse, S::Browsing},
+    Transition{S::Idle, E::Fail, S::Fault},  // of the display
 
     Transition{S::Browsing, E::Open, S::Opening},
     Transition{S::Browsing, E::Stop, S::Idle},

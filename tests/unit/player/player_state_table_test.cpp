@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
     // RWOOFFPPTRSUVELPF
     "I...............F",  // boot
-    ".wo..............",  // idle
+    ".wo.............F",  // idle
     "..o............IF",  // browsing
     "..oB..oo.......IF",  // opening
     "..o.PuBB.BS..E.IF",  // buffering
