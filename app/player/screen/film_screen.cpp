@@ -59,6 +59,7 @@ void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolu
   calibration_ = calibration;
   jump();
   picture_.setScene(calibration, volume, fromSeconds(kDrawShare * toSeconds(period)));
+  picture_.setAspect(parseAspect(aspect_word_).value_or(0));  // in this film's shape
   text_.wake(now);
 }
 

@@ -299,6 +299,15 @@ TEST_F(FilmScreenTest, CarriesTheCommandsOutThatAreItsOwn) {
   EXPECT_EQ(redraw(std::nullopt, kMs), 0);
 }
 
+TEST_F(FilmScreenTest, TheShapeThatTheViewerChoseIsThatOfTheNextFilmToo) {
+  make();
+  screen_->setScene({}, {.width_mm = 160, .height_mm = 90, .depth_mm = 40}, 40 * kMs, clock_.now());
+  screen_->obey({.verb = PlayerVerb::Aspect, .value = 0, .word = "4:3"});
+  EXPECT_NEAR(screen_->stereo().stretch, 0.75, 1e-9);
+  screen_->setScene({}, {.width_mm = 120, .height_mm = 90, .depth_mm = 40}, 40 * kMs, clock_.now());
+  EXPECT_NEAR(screen_->stereo().stretch, 1.0, 1e-9);
+}
+
 TEST_F(FilmScreenTest, AWindowThatTheViewerClosesIsNoFault) {
   profile_.close_after_frames = 1;
   make();
