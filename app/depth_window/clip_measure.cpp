@@ -56,7 +56,10 @@ void lookAcross(const HeightField& field, Across& found) {
   Lattice::forPlaces(field, [&](int c, int r) {
     const double left = field.heightMm(c - 1, r), here = field.heightMm(c, r), right = field.heightMm(c + 1, r);
     // Values at either end of the range are often painted and free of noise.
-    if (std::isnan(left + here + right) || here <= 0 || here >= field.depthMm()) return;
+    if (std::isnan(left + here + right) || std::min({left, here, right}) <= 0 ||
+        std::max({left, here, right}) >= field.depthMm()) {
+      return;
+    }
     // From one height to another, steps are as high as halfway between them, in the geometric mean.
     const auto stretch = [&](double a, double b) { return std::sqrt(field.stretchAt(a) * field.stretchAt(b)); };
     const double before = (here - left) / stretch(left, here), after = (right - here) / stretch(here, right);

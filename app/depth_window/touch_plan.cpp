@@ -162,11 +162,11 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
     s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
   }
 
-  // The narrow level's error must fit under the clamp: four standard deviations of its noise plus one step. Within that
+  // The narrow level's error must fit under the clamp: five standard deviations of its noise plus one step. Within that
   // the wide level alone counts (FeltSurface).
   const double narrow_noise =
       m.noise_mm * apart(s.narrow_mm, kNarrowSamples) * through / (s.narrow_mm * std::sqrt(4 * std::numbers::pi));
-  s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 4 * narrow_noise});
+  s.clamp_mm = std::max({0.15, 1.5 * std::min(m.quantum_mm, 0.2), 5 * narrow_noise});
   plan.reason = reasonFor(plan, ahead);
   return plan;
 }

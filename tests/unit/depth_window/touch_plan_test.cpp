@@ -111,7 +111,7 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
       }
     }
     const double left = std::sqrt(sum / places);
-    EXPECT_NEAR(left, plan.error, 0.3 * plan.error) << cols << ' ' << noise_mm << ' ' << still;
+    EXPECT_NEAR(left, plan.error, 0.35 * plan.error) << cols << ' ' << noise_mm << ' ' << still;
   }
 }
 
@@ -124,6 +124,24 @@ TEST(TouchPlan, WhatIsPaintedAtTheEndsOfTheRangeHasNoSay) {
   });
   const TimedSurface alone{HeightField::make(frame, {.bits = 16}, kVolume).value(), {}, frame.owner};
   EXPECT_NEAR(measureClip(std::span(&alone, 1)).noise_mm, 0.4, 0.06);
+}
+
+// The same noise everywhere; on the floor, three quarters of the picture, half of it is clipped.
+TEST(TouchPlan, NoiseThatIsClippedHasNoSay) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0, 0.4);
+  const Frame frame = makeGrayFrame(
+      400, 270, 16, {}, [&](int c, int) { return std::max((c < 300 ? 0 : 20) + noise(random), 0.0) / 40 * 65535; });
+  const TimedSurface alone{HeightField::make(frame, {.bits = 16}, kVolume).value(), {}, frame.owner};
+  EXPECT_NEAR(measureClip(std::span(&alone, 1)).noise_mm, 0.4, 0.06);
+}
+
+// White noise s of samples p apart leaves s p/(w sqrt(4 pi)) of itself under a Gaussian of width w, and sqrt(.48) of
+// that under a B-spline in time.
+TEST(TouchPlan, TheClampHoldsFiveDeviationsOfTheNarrowLevelsNoise) {
+  const ClipMeasure noisy{.frames = 4, .quantum_mm = 0.001, .noise_mm = 0.4, .sample_mm = 0.22, .period_s = kPeriod};
+  const double left = 0.4 * 0.22 / (0.28 * std::sqrt(4 * std::numbers::pi)) * std::sqrt(0.48);
+  EXPECT_NEAR(planTouch(noisy).scale.clamp_mm, 5 * left, 1e-3);
 }
 
 // A spline in time flattens a nod by the square of the frame period.
