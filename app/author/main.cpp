@@ -74,13 +74,12 @@ void addSourceOptions(CLI::App& app, SourceOptions& source) {
 
 // For CLI11's `check`.
 CLI::Validator quality() {
-  constexpr int kWorst = 51;
-  const auto judge = [](const std::string& word) -> std::string {
-    int crf = 0;
-    const bool good = CLI::detail::lexical_cast(word, crf) && crf >= 0 && crf <= kWorst;
-    return good ? "" : word + " is not a whole number between 0 and " + std::to_string(kWorst);
-  };
-  return {judge, ""};
+  return {[](const std::string& word) -> std::string {
+            int crf = -1;
+            const bool good = CLI::detail::lexical_cast(word, crf) && crf >= 0 && crf <= 51;
+            return good ? "" : word + " is not a whole number between 0 and 51";
+          },
+          ""};
 }
 
 // Quality of both tracks, and of the depth alone.
