@@ -72,7 +72,6 @@ void addSourceOptions(CLI::App& app, SourceOptions& source) {
   addRateOption(app, source);
 }
 
-// For CLI11's `check`.
 CLI::Validator quality() {
   return {[](const std::string& word) -> std::string {
             int crf = -1;
