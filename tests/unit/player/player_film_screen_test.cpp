@@ -322,7 +322,7 @@ TEST_F(FilmScreenTest, AWindowThatTheViewerClosesIsNoFault) {
 TEST_F(FilmScreenTest, APictureThatCannotBeDrawnIsRefusedAndTheNextOneIsShown) {
   display_ = makeOffscreenDisplay({}, clock_);
   FilmScreen screen(*display_, {.width = 16, .height = 16}, stereo_, osd_, clock_, journal_, files_);
-  if (const auto opened = screen.open(); !opened) GTEST_SKIP() << opened.error().message;
+  if (const auto opened = screen.open(stop_); !opened) GTEST_SKIP() << opened.error().message;
   const auto shown = [&](int bits) {
     const Frame picture = test::makeGrayFrame(4, 4, bits, MediaTime{}, [](int, int) { return 1; });
     return screen.show({.color = picture}, {}, {}, {}, clock_.now());
