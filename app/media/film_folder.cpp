@@ -2,10 +2,12 @@
 #include "app/media/film_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "hal/media/media_names.h"
@@ -51,6 +53,21 @@ std::vector<std::string> depthStems(const std::string& stem) {
   return stems;
 }
 
+// Of "_video_depth" and "_depth_vis": depth, and words that programs which guess it put beside it. Other words belong
+// to another film: "-2_depth", " - In Depth".
+bool isOfDepth(std::string_view rest) {
+  static constexpr std::array<std::string_view, 8> kBeside{"video", "vis", "map", "pred", "raw", "gray", "grey", "out"};
+  bool says_depth = false;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of("-_. "), rest.size());
+    const std::string_view word = rest.substr(0, end);
+    says_depth = says_depth || word == "depth";
+    if (!word.empty() && word != "depth" && std::ranges::find(kBeside, word) == kBeside.end()) return false;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return says_depth;
+}
+
 // The file that holds the depth of `film`; empty if there is none.
 std::string depthOf(const std::string& film, const FilesByStem& files) {
   const std::string stem = lowerCase(stemOf(film));
@@ -59,11 +76,10 @@ std::string depthOf(const std::string& film, const FilesByStem& files) {
       return found->second;
   }
   if (saysDepth(film)) return "";
-  // "a_video_depth", "a_depth_vis"
   for (auto at = files.upper_bound(stem); at != files.end() && at->first.starts_with(stem); ++at) {
-    const std::string rest = at->first.substr(stem.size());
+    const std::string_view rest = std::string_view(at->first).substr(stem.size());
     const bool is_apart = std::isalnum(static_cast<unsigned char>(rest.front())) == 0;
-    if (is_apart && saysDepth(at->second) && rest.find("mask") == rest.npos) return at->second;
+    if (is_apart && isOfDepth(rest)) return at->second;
   }
   return "";
 }

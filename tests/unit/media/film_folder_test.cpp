@@ -50,16 +50,36 @@ TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
 }
 
 TEST_F(FilmFolder, ADepthsNameMayHaveMoreWordsAndCapitals) {
-  files({"a.mp4", "a_video_depth.mp4", "Clip.MP4", "Clip_Depth.MP4", "RGB_001.avi", "DEPTH_001.avi", "b.mp4",
-         "b_depth_vis.mp4", "b_depth.mp4", "c.png", "c_depth_mask.png", "left.mp4", "disp.mp4", "d.mp4", "depth_d.mp4",
-         "d1.mp4", "depth_d12.mp4"});
+  files({"a.mp4",
+         "a_video_depth.mp4",
+         "Clip.MP4",
+         "Clip_Depth.MP4",
+         "RGB_001.avi",
+         "DEPTH_001.avi",
+         "b.mp4",
+         "b_depth_vis.mp4",
+         "b_depth.mp4",
+         "c.png",
+         "c_depth_mask.png",
+         "left.mp4",
+         "disp.mp4",
+         "d.mp4",
+         "depth_d.mp4",
+         "d1.mp4",
+         "depth_d12.mp4",
+         "e.mp4",
+         "e-2.mp4",
+         "e-2_depth.mp4",
+         "Ocean.mkv",
+         "Ocean - In Depth.mkv"});
   EXPECT_EQ(depthBeside(folder_ / "a.mp4"), folder_ / "a_video_depth.mp4");
   EXPECT_EQ(depthBeside(folder_ / "Clip.MP4"), folder_ / "Clip_Depth.MP4");
   EXPECT_EQ(depthBeside(folder_ / "RGB_001.avi"), folder_ / "DEPTH_001.avi");
   EXPECT_EQ(depthBeside(folder_ / "b.mp4"), folder_ / "b_depth.mp4") << "not the painted one";
   EXPECT_EQ(depthBeside(folder_ / "left.mp4"), folder_ / "disp.mp4");
   EXPECT_EQ(depthBeside(folder_ / "d.mp4"), folder_ / "depth_d.mp4");
-  for (const char* none : {"b_depth.mp4", "c.png", "d1.mp4"}) EXPECT_EQ(depthBeside(folder_ / none), "") << none;
+  for (const char* none : {"b_depth.mp4", "c.png", "d1.mp4", "e.mp4", "Ocean.mkv"})
+    EXPECT_EQ(depthBeside(folder_ / none), "") << none;
 }
 
 TEST_F(FilmFolder, AFilmOverAFolderOfDepthPicturesIsOneRecording) {
