@@ -101,12 +101,15 @@ std::string otherCodes(const KnownKind& kind, const CodeCount& count) {
 bool isNetwork(const Frame& depth, const CodeCount& count) {
   constexpr std::uint32_t kNearestMm = 100, kNearMiddleMm = 200;
   constexpr double kBesideHoles = 0.02;
+  if (count.share(1, kTop) == 0) return false;
   const Reach reach = reachOf(count, 1, kTop);
   if (depth.model != ColorModel::Gray || count.bits() != 16 || count.step() > kMostStep) return false;
   if (reach.high >= kMaybeStretched) return false;
-  const double outliers = count.share(0, 0) > kOutliers ? kBesideHoles : kOutliers;
-  const bool from_zero = areRelative(count) && count.quantile(outliers, 1, kTop) < kNearestMm;
-  return from_zero || count.quantile(0.5, 1, kTop) < kNearMiddleMm;
+  const bool has_zero = count.share(0, 0) > kOutliers;
+  if (areRelative(count) && count.quantile(has_zero ? kBesideHoles : kOutliers, 1, kTop) < kNearestMm) return true;
+  // Few codes: those of a close view, or of centimetres, leave a gap above the holes.
+  const bool has_holes = has_zero && reach.low > 1;
+  return !has_holes && count.quantile(0.5, 1, kTop) < kNearMiddleMm && looksLikeDisparity(depth, count);
 }
 
 DepthReading readNetwork(const CodeCount& count) {

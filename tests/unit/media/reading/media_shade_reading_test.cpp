@@ -125,6 +125,21 @@ TEST(ShadeReading, SixteenBitsFromZeroOnAreNotMillimetres) {
   }
 }
 
+// A camera for close views (70 to 190 mm), or a room in centimetres: with holes, or nearer below as distances.
+TEST(ShadeReading, FewCodesOfACloseViewStayDistances) {
+  const auto kind = [](bool holes, bool near_below) {
+    const Frame frame = makeGrayFrame(
+        64, 96, 16, {}, [=](int c, int r) { return holes && c < 6 ? 0 : 70 + (near_below ? 95 - r : r) + c % 3; });
+    return sensorKind(frame, CodeCount(frame));
+  };
+  EXPECT_EQ(kind(true, false), findKind("mm"));
+  EXPECT_EQ(kind(true, true), findKind("mm"));
+  EXPECT_EQ(kind(false, true), findKind("mm"));
+  EXPECT_EQ(kind(false, false), nullptr);
+  const Frame black = makeGrayFrame(8, 8, 16, {}, [](int, int) { return 0; });
+  EXPECT_EQ(readMeaning({}, nullptr, black).value().reading.offers.size(), 0) << "no network's numbers";
+}
+
 TEST(ShadeReading, HolesWithSoftEdgesStayHolesOfDistances) {
   const Frame resized = makeGrayFrame(200, 100, 16, {}, [](int c, int r) {
     return c < 20 ? 0 : c == 20 ? r : 800 + 10 * c;
