@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/local_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +9,7 @@
 
 #include "drivers/ffmpeg/address.h"
 #include "platform/files/answered_file.h"
+#include "platform/files/file_system_answer.h"
 
 extern "C" {
 #include <libavutil/error.h>
@@ -32,7 +34,8 @@ int failed(LocalFile& local, const Error& error) noexcept {
 
 int readSome(void* opaque, std::uint8_t* out, int bytes) {
   auto& local = *static_cast<LocalFile*>(opaque);
-  if (local.watch->givesUp()) return AVERROR_EXIT;
+  const std::atomic<bool>* const cancels = CancelsAnswers::flag();  // of whoever only looks at a picture
+  if (local.watch->givesUp() || (cancels != nullptr && *cancels)) return AVERROR_EXIT;
   const auto got =
       local.file.readSome(static_cast<std::uint64_t>(local.at), std::span(out, static_cast<std::size_t>(bytes)));
   if (!got) return failed(local, got.error());
