@@ -62,7 +62,7 @@ void Player::obeyKey(const PlayerCommand& command, std::uint16_t code, Monotonic
 
 // Called within the display's `attend`.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
-  const bool clicks = mouse_.press(mouse.pressed);
+  const bool clicks = mouse.notches == 0 && mouse_.press(mouse.pressed);  // the wheel knows no button
   if (screen_.text().showsKeys()) {
     screen_.text().turnPage(-mouse.notches);
     if (clicks) screen_.text().hideKeys();
