@@ -68,7 +68,7 @@ Deeds faster(const Situation& s) {
   return s.held && rate > 1 && s.length > Duration(0) ? goOnAt(rate, s) : changeRate(rate, s);
 }
 
-// A seek shows the first picture at or after its target.
+// A seek shows the first picture at or after its target, or the one that stands there for long.
 Deeds stepBack(const Situation& s) {
   if (s.rate > 1) return pause(s);
   if (!nextState(s.state, PlayerEvent::Step)) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurements of clips, and the widths and laws planned from them.
+// Plans of clips, and the widths and laws planned from them.
 #include "app/depth_window/touch_plan.h"
 
 #include <gtest/gtest.h>
