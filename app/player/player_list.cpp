@@ -68,7 +68,7 @@ void Player::endFilm(MonotonicTime now) {
   apply(PlayerEvent::EndOfFilm);
   programme_.forgetPlace();
   const auto next = programme_.afterEnd();
-  if (next == programme_.present()) return seek(MediaTime{}, PlayerEvent::Loop, false, now);
+  if (next == programme_.present() && !film_.refusesSeeks()) return seek(MediaTime{}, PlayerEvent::Loop, false, now);
   film_.forgetPlace();
   if (next) return openFilm(*next, Programme::Way::Forward, now);
   stopFilm(now);

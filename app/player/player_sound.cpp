@@ -96,6 +96,7 @@ void Player::beginWords() {
 
 void Player::followLoopAB(MonotonicTime now) {
   if (state_ != PlayerState::Playing) return;
+  if (film_.refusesSeeks()) loop_ab_.forget();
   if (const auto begin = loop_ab_.backFrom(film_.place(now))) seek(*begin, PlayerEvent::Seek, false, now);
 }
 

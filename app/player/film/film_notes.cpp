@@ -14,7 +14,7 @@ namespace relievo {
 void FilmNotes::begin(const SourceOptions& source) {
   url_ = source.url;
   depth_url_ = source.depth_url;
-  slowness_told_ = wait_told_ = false;
+  slowness_told_ = wait_told_ = refuses_seeks_ = false;
   waits_since_.reset();
 }
 
@@ -62,6 +62,7 @@ void FilmNotes::happened(const FilmFeed::News& news) {
 }
 
 void FilmNotes::refused(const Error& seek) {
+  refuses_seeks_ = true;
   journal_.note(std::string("seek: ") + seek.message, "the film continues from its present position");
 }
 

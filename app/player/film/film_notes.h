@@ -28,6 +28,7 @@ class FilmNotes {
   void happened(const FilmFeed::News& news);
   // A seek that the source refused.
   void refused(const Error& seek);
+  [[nodiscard]] bool refusesSeeks() const noexcept { return refuses_seeks_; }
   // The machine does not decode all pictures in time; reported once.
   void slow();
   // After the film's end: what it lacked.
@@ -36,7 +37,7 @@ class FilmNotes {
  private:
   Journal& journal_;
   std::string url_, depth_url_;
-  bool slowness_told_ = false, wait_told_ = false;
+  bool slowness_told_ = false, wait_told_ = false, refuses_seeks_ = false;
   std::optional<MonotonicTime> waits_since_;
 };
 

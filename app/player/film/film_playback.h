@@ -83,6 +83,8 @@ class FilmPlayback {
   void seek(MediaTime target, MonotonicTime now);
   // True when the seek has been carried out or refused. After a refusal the film continues from where it is, at rate 1.
   [[nodiscard]] bool arriving(MonotonicTime now);
+  // True once the open film has refused a seek.
+  [[nodiscard]] bool refusesSeeks() const noexcept { return notes_.refusesSeeks(); }
 
   // Whether the next `start` leaves the film paused.
   void wishHeld(bool held) noexcept { held_ = held; }

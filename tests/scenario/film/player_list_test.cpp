@@ -48,6 +48,16 @@ TEST_F(PlayerLists, AListOnLoopBeginsAgain) {
   EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b", "./c"));
 }
 
+TEST_F(PlayerLists, OnLoopAFilmThatCannotBeSoughtIsOpenedAgain) {
+  bench_.sources["film"] = PlayerBench::film(50);
+  bench_.sources["film"].live = true;
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(5);
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("film", "film", "film"));
+  EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 125, 5);
+}
+
 TEST_F(PlayerLists, NextAndPreviousGoFromFilmToFilm) {
   aList();
   bench_.sources["./b"] = PlayerBench::film(500);

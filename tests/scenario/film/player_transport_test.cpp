@@ -94,6 +94,15 @@ TEST_F(PlayerTransport, ASeekIntoALongPictureGoesOnFromThere) {
   }
 }
 
+TEST_F(PlayerTransport, WhereNoSeekIsPossibleAMarkedPartIsForgotten) {
+  bench_.sources["film"].live = true;
+  bench_.press(1.0, KEY_L);
+  bench_.press(2.0, KEY_L);
+  playsWell();
+  EXPECT_EQ(std::ranges::count(bench_.report.states, PlayerState::Seeking), 1);
+  EXPECT_GT(bench_.report.media_s, 3.5) << "but for what was read ahead";
+}
+
 TEST_F(PlayerTransport, WhereNothingIsPlayedTheDeviceIsAtRest) {
   bench_.config.stays = true;
   bench_.config.duration = std::chrono::seconds(8);
