@@ -181,13 +181,14 @@ void DepthSource::findAgain(std::unique_lock<std::mutex>& lock) {
   before_ = counters_;
   const MediaTime target = goes_on_at_;
   const Duration key_step = seek_.key_step;
+  const std::uint64_t sought = seek_.number;
   lock.unlock();
   auto found = connect();
   if (found && !reader_->source().live()) found = reader_->seek(target, key_step);
   lock.lock();
   if (!found) return back_off_.failed(backends_.clock->now());
   loss_.reset();
-  seek_.target.reset();
+  if (sought == seek_.number) seek_.target.reset();  // else a newer one is still to be carried out
   ++counters_.reconnects;
 }
 

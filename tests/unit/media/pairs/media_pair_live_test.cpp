@@ -2,6 +2,9 @@
 // Colour and depth from two sources over a network meet by their arrival, and again after a loss.
 #include <gtest/gtest.h>
 
+#include <future>
+
+#include "app/media/depth_source.h"
 #include "app/media/pair_reader.h"
 #include "drivers/mock/mock.h"
 #include "tests/support/film/clip_maker.h"
@@ -152,6 +155,35 @@ TEST(PairReader, ALiveFilmThatCannotSeekGoesOnWhereItWas) {
   ASSERT_FALSE(sought.has_value());
   EXPECT_EQ(sought.error().code, ErrorCode::Unsupported);
   EXPECT_EQ(film.reader.next().value()->color.pts, first + film.color.tracks[0].frame_period);
+}
+
+TEST(DepthSource, ASeekWhileItsSourceIsBeingOpenedAgainIsCarriedOut) {
+  MonotonicClock clock;
+  const MockMediaProfile whole{.tracks = {MockTrack{.width = 16, .height = 12, .frames = 1000}}, .remote = true};
+  MockMediaProfile first = whole;
+  first.lose_after_packets = 5;
+  std::promise<void> opening, sought;
+  int made = 0;
+  const PairReader::Backends backends{.make_source =
+                                          [&](const std::string&) {
+                                            if (++made == 1) return makeMockSource(first, clock);
+                                            if (made == 2) {
+                                              opening.set_value();
+                                              sought.get_future().wait();
+                                            }
+                                            return makeMockSource(whole, clock);
+                                          },
+                                      .make_decoder = [](const StreamInfo&) { return makeMockDecoder(); },
+                                      .clock = &clock,
+                                      .own_threads = true};
+  DepthSource source(backends, {});
+  ASSERT_TRUE(source.open("depth").has_value());
+  opening.get_future().wait();
+  ASSERT_TRUE(source.seek(mediaTime(20), Duration(0)).has_value());
+  sought.set_value();
+  Frame found;
+  while (found.empty()) found = source.next().value().frame;
+  EXPECT_NEAR(toSeconds(found.pts), 20, 0.04);
 }
 
 }  // namespace
