@@ -2,17 +2,29 @@
 // Fills the report, and calls the listener at once.
 #include "app/player/journal.h"
 
+#include <utility>
+
 #include "platform/log.h"
 
 namespace relievo {
 namespace {
 
 constexpr std::size_t kMostStates = 10'000;  // enough for a look at a film that loops for months
+constexpr std::size_t kMostFilms = 1000;     // likewise, at a list
 
 }  // namespace
 
 void Journal::stateChanged(PlayerState state) {
   if (report_.states.size() < kMostStates) report_.states.push_back(state);
+}
+
+void Journal::filmAsked(const std::string& url) {
+  film_kept_ = report_.films.size() < kMostFilms;
+  if (film_kept_) report_.films.push_back(url);
+}
+
+void Journal::filmIsList() {
+  if (std::exchange(film_kept_, false)) report_.films.pop_back();
 }
 
 void Journal::note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when) {

@@ -27,9 +27,10 @@ class Journal {
   [[nodiscard]] double sinceBegin(MonotonicTime time) const noexcept { return toSeconds(time - began_); }
 
   void stateChanged(PlayerState state);
-  void filmAsked(const std::string& url) { report_.films.push_back(url); }
-  void filmIsList() { report_.films.pop_back(); }  // the last source is a list, not a film
-  void filmOpened(const FilmInfo& info) { report_.film = info; }
+  void filmAsked(const std::string& url);
+  void filmIsList();  // the last source is a list, not a film
+  // The film that is played, with its chosen tracks.
+  void filmIs(const FilmInfo& info) { report_.film = info; }
 
   // A fault, and what the player did about it; also goes to the log and the listener.
   void note(const std::string& what, const std::string& done, std::optional<MonotonicTime> when = {});
@@ -45,6 +46,7 @@ class Journal {
   const Clock& clock_;
   Listener listener_;
   MonotonicTime began_;
+  bool film_kept_ = false;  // the last one is in the report
   PlayReport report_;
 };
 

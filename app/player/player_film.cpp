@@ -93,7 +93,7 @@ void Player::followOpening(MonotonicTime now) {
   if (std::exchange(config_.unseen, false)) {
     log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
   }
-  journal_.filmOpened(film_.opened());
+  journal_.filmIs(film_.opened());
   beginWords();
   const auto left = programme_.whereLeft(film_.info().duration);
   if (!left) return;

@@ -38,7 +38,7 @@ struct SecondFinger {
 
 struct PlayReport {
   std::string source, depth_source;
-  std::vector<std::string> films;  // opened, in order
+  std::vector<std::string> films;  // opened, in order; the first 1000
   FilmInfo film;                   // the last one
   PairCounters pairs;
   DisplayVolume volume;

@@ -57,5 +57,15 @@ TEST(Journal, AListIsNoFilm) {
   EXPECT_EQ(journal.written().films, std::vector<std::string>{"a.mkv"});
 }
 
+TEST(Journal, OfFilmsThatFollowEachOtherForMonthsTheFirstAreKept) {
+  const ManualClock clock;
+  Journal journal(clock);
+  for (int i = 0; i < 2000; ++i) journal.filmAsked("a.mkv");
+  EXPECT_EQ(journal.written().films.size(), 1000U);
+  journal.filmAsked("list.m3u");
+  journal.filmIsList();
+  EXPECT_EQ(journal.written().films.size(), 1000U);
+}
+
 }  // namespace
 }  // namespace relievo
