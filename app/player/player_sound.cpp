@@ -61,6 +61,7 @@ void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::s
   if (sound == info.sound && words == info.words) return;
   if (words != info.words) screen_.subtitles().forget();
   film_.chooseTracks(sound, words);
+  journal_.filmIs(film_.info());
   if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
 }
 

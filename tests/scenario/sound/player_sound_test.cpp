@@ -72,6 +72,7 @@ TEST_F(PlayerSound, AnotherTrackIsHeardFromWhereTheFilmIs) {
   ASSERT_TRUE(last.heard_s);
   EXPECT_NEAR(*last.heard_s - 500, 0.04 * 145, 0.05);
   EXPECT_EQ(bench_.report.sound.underruns, 0u);
+  EXPECT_EQ(bench_.report.film.sound, std::optional<std::size_t>(1)) << "that of the report too";
 }
 
 TEST_F(PlayerSound, SoundThatIsLongerThanThePicturePlaysToItsEnd) {
