@@ -75,9 +75,11 @@ void addTrace(CLI::App& app, TraceOptions& options) {
              {"linear", TimeLaw::Linear},
              {"bspline", TimeLaw::BSpline},
              {"fitted", TimeLaw::Fitted},
+             {"adapted", TimeLaw::Adapted},
              {"mean", TimeLaw::Mean}},
             "The surface between frames [the method's own]\nhold: the newest frame; linear: the paper's; bspline, "
-            "fitted: splines; mean: of five frames; these three only for relievo on smooth patches");
+            "fitted: splines; adapted: the fitted one where it adds more than noise, else bspline; mean: of five "
+            "frames; these four only for relievo on smooth patches");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
             "Limits on the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "

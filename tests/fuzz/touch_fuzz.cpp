@@ -35,11 +35,14 @@ class Episode {
     stiffness_ = random_.within(0.1, 1.5);
     if (method == kDefaultMethod) {
       RelievoMethod::Config config{.stiffness_n_per_mm = stiffness_};
-      const TimeLaw laws[] = {TimeLaw::Hold, TimeLaw::Linear, TimeLaw::BSpline, TimeLaw::Fitted, TimeLaw::Mean};
+      const TimeLaw laws[] = {TimeLaw::Hold,   TimeLaw::Linear,  TimeLaw::BSpline,
+                              TimeLaw::Fitted, TimeLaw::Adapted, TimeLaw::Mean};
       if (random_.chance(0.5)) {
         config.scale.narrow_mm = random_.within(0.1, 0.4);
         config.scale.wide_mm = random_.within(0.2, 1.0);
         config.scale.clamp_mm = random_.within(0.1, 0.6);
+        config.scale.narrow_steady_mm = random_.within(0, 0.1);
+        config.scale.wide_steady_mm = random_.within(0, 0.1);
         config.scale.narrow_time = laws[random_.below(std::size(laws))];
         config.scale.wide_time = laws[random_.below(std::size(laws))];
         if (random_.chance(0.5)) {

@@ -58,10 +58,9 @@ Outcome<void> checkParts(const TraceOptions& options) {
                   "they cannot be combined; only relievo has quadratic and bspline, the others use triangles");
   }
   if (time && !go({}, time)) {
-    return refuse(
-        std::string("--time ") + name(*time), method,
-        "they cannot be combined; only relievo has bspline, fitted and mean, proxy-blend uses hold, the others hold "
-        "or linear");
+    return refuse(std::string("--time ") + name(*time), method,
+                  "they cannot be combined; only relievo has bspline, fitted, adapted and mean, proxy-blend uses hold, "
+                  "the others hold or linear");
   }
   const Material& material = options.film.source.material;
   const auto parts = partsOf(options.method, {.space = space, .time = time});

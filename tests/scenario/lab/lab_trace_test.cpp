@@ -295,6 +295,7 @@ TEST_F(LabTrace, OptionsThatDoNotGoTogetherAreNamedBoth) {
   };
   for (const Case& c : {Case{"proxy-graph --space bspline", "--space bspline with --method proxy-graph: "},
                         Case{"penalty --time fitted", "--time fitted with --method penalty: "},
+                        Case{"penalty --time adapted", "--time adapted with --method penalty: "},
                         Case{"proxy-blend --time linear", "--time linear with --method proxy-blend: "},
                         Case{"relievo --space triangles --time bspline", "--time bspline with --space triangles: "}}) {
     const auto result = test::runProgram(
