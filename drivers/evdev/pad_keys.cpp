@@ -21,7 +21,10 @@ constexpr std::array kButtons{BTN_SOUTH,   BTN_EAST,      BTN_NORTH,     BTN_WES
 
 bool isGamepad(const libevdev* device) noexcept {
   const auto has = [device](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
-  return has(EV_KEY, BTN_GAMEPAD) && has(EV_ABS, ABS_Y) && !has(EV_KEY, BTN_WHEEL);
+  const bool stick = has(EV_ABS, ABS_Y) &&
+                     libevdev_get_abs_minimum(device, ABS_X) == libevdev_get_abs_minimum(device, ABS_Y) &&
+                     libevdev_get_abs_maximum(device, ABS_X) == libevdev_get_abs_maximum(device, ABS_Y);
+  return has(EV_KEY, BTN_GAMEPAD) && stick && !has(EV_KEY, BTN_WHEEL);
 }
 
 PadKeys::PadKeys(const libevdev* device) {
@@ -31,10 +34,13 @@ PadKeys::PadKeys(const libevdev* device) {
     axis.high = libevdev_get_abs_maximum(device, axis.code);
     if (axis.low < axis.high) axes_.push_back(axis);  // one that the device lacks has 0 for both
   }
-  const auto has_axis = [device](unsigned code) { return libevdev_has_event_code(device, EV_ABS, code) != 0; };
-  const bool has_trigger = libevdev_has_event_code(device, EV_KEY, BTN_TR2) != 0 ||
-                           std::ranges::any_of(std::array{ABS_GAS, ABS_BRAKE, ABS_Z, ABS_RZ}, has_axis);
-  shoulder_presses_ = !has_trigger;
+  const auto has = [device](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
+  const bool second_stick = has(EV_ABS, ABS_RX) && has(EV_ABS, ABS_RY);
+  if (has(EV_ABS, ABS_GAS) || has(EV_ABS, ABS_BRAKE)) return;
+  if (second_stick && (has(EV_ABS, ABS_Z) || has(EV_ABS, ABS_RZ))) return;
+  for (const unsigned key : {BTN_TR2, BTN_TR, BTN_TRIGGER, BTN_SOUTH}) {
+    if (press_key_ == KEY_RESERVED && has(EV_KEY, key)) press_key_ = key;
+  }
 }
 
 std::uint16_t PadKeys::Axis::keyAt(int value) const noexcept {
@@ -46,7 +52,7 @@ std::uint16_t PadKeys::Axis::keyAt(int value) const noexcept {
 void PadKeys::take(const input_event& event, KeyHold& keys, MonotonicTime now) {
   if (event.type == EV_KEY) {
     const bool is_key = std::ranges::find(kButtons, event.code) != kButtons.end();
-    if (is_key && !(shoulder_presses_ && event.code == BTN_TR)) keys.take(event.code, event.value, now);
+    if (is_key && event.code != press_key_) keys.take(event.code, event.value, now);
   }
   if (event.type != EV_ABS) return;
   const auto axis = std::ranges::find(axes_, event.code, &Axis::code);

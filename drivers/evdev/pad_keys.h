@@ -14,7 +14,7 @@ struct libevdev;
 namespace relievo {
 
 // A gamepad by the kernel's Documentation/input/gamepad.rst. A wheel with such buttons is none: its hat moves the
-// finger.
+// finger. It has BTN_WHEEL, or a pedal's range on ABS_Y.
 [[nodiscard]] bool isGamepad(const libevdev* device) noexcept;
 
 // The first stick and the triggers belong to the finger (drivers/gamepad), pressed or turned, and give no keys. A d-pad
@@ -35,7 +35,7 @@ class PadKeys {
     [[nodiscard]] std::uint16_t keyAt(int value) const noexcept;
   };
   std::vector<Axis> axes_;
-  bool shoulder_presses_ = false;  // without any trigger the right shoulder button presses the finger in
+  unsigned press_key_ = KEY_RESERVED;  // without a trigger that is an axis it presses the finger in (PadControls)
 };
 
 }  // namespace relievo

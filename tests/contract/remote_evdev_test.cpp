@@ -129,6 +129,33 @@ TEST_F(RemoteEvdev, APadIsARemoteExceptForTheFingersStickAndTriggers) {
   EXPECT_EQ(pad.unknownRequests(), 0);
 }
 
+// As drivers/gamepad reads the same devices: a key that presses the finger in is no key of the remote.
+TEST_F(RemoteEvdev, TheFingersKeyAndAWheelWithAPedalGiveNoKeys) {
+  auto codes = UmockdevMouse::pad();
+  codes[EV_ABS] = {ABS_X, ABS_Y, ABS_Z, ABS_RZ};  // the second stick
+  UmockdevMouse shoulder(bed_, 7, codes);
+  codes[EV_KEY] = {BTN_SOUTH, BTN_EAST};
+  UmockdevMouse plain(bed_, 8, codes);
+  UmockdevMouse wheel(bed_, 9, UmockdevMouse::pad());
+  wheel.setPedal(255);
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  const auto expectOnlyEast = [&](UmockdevMouse& pad, std::uint16_t presses) {
+    press(pad, presses, 1);
+    press(pad, presses, 0);
+    press(pad, BTN_EAST, 1);
+    expectNext(*remote, BTN_EAST, KeyEvent::Action::Press);
+    press(pad, BTN_EAST, 0);
+    expectNext(*remote, BTN_EAST, KeyEvent::Action::Release);
+  };
+  press(wheel, BTN_EAST, 1);
+  expectOnlyEast(shoulder, BTN_TR);
+  expectOnlyEast(plain, BTN_SOUTH);
+  wheel.unplug();
+  now_ += 1s;
+  EXPECT_FALSE(remote->poll(now_).value());
+}
+
 // The words of an Xbox pad, BTN_SOUTH to BTN_THUMBR, and of a keyboard, on a machine of 64 bits.
 TEST(EventNodes, AKeyIsOneOfTheBitsThatSysfsLists) {
   if (sizeof(long) != 8) GTEST_SKIP() << "words of 32 bits";

@@ -69,6 +69,13 @@ void UmockdevMouse::hold(std::uint16_t key, bool down) {
   if (down) held_.push_back(key);
 }
 
+input_absinfo UmockdevMouse::rangeOf(std::size_t axis) const {
+  if (axis == ABS_Y && pedal_ > 0) return {.minimum = 0, .maximum = pedal_};
+  const bool is_hat = axis == ABS_HAT0X || axis == ABS_HAT0Y, is_trigger = axis == ABS_Z || axis == ABS_RZ;
+  const int most = is_hat ? 1 : is_trigger ? 255 : 32767;
+  return {.minimum = is_trigger ? 0 : -most, .maximum = most};
+}
+
 bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
   const auto request = umockdev_ioctl_client_get_request(client);
   const std::size_t size = _IOC_SIZE(request);
@@ -127,10 +134,7 @@ bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
     return bits(found == codes_.end() ? std::vector<std::uint16_t>{} : found->second);
   }
   if (number >= _IOC_NR(EVIOCGABS(0)) && number <= _IOC_NR(EVIOCGABS(ABS_MAX))) {
-    const auto axis = number - _IOC_NR(EVIOCGABS(0));
-    const bool is_hat = axis == ABS_HAT0X || axis == ABS_HAT0Y, is_trigger = axis == ABS_Z || axis == ABS_RZ;
-    const int most = is_hat ? 1 : is_trigger ? 255 : 32767;
-    const input_absinfo range{.minimum = is_trigger ? 0 : -most, .maximum = most};
+    const input_absinfo range = rangeOf(number - _IOC_NR(EVIOCGABS(0)));
     std::memcpy(data->data, &range, sizeof range);
     return complete(0);
   }

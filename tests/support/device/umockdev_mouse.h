@@ -3,9 +3,11 @@
 // and sends the test's events. Only under `umockdev-wrapper`.
 #pragma once
 
+#include <linux/input.h>
 #include <umockdev.h>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -34,12 +36,15 @@ class UmockdevMouse {
   void unplug();
   // Sets the state of a key that the device reports on request.
   void hold(std::uint16_t key, bool down);
+  // Before the device is opened: ABS_Y counts from 0 to `most`, as a wheel's pedal does.
+  void setPedal(int most) { pedal_ = most; }
   [[nodiscard]] bool isGrabbed() const { return grabbed_; }
   // The number of unsupported requests.
   [[nodiscard]] int unknownRequests() const { return unknown_; }
 
  private:
   bool answer(UMockdevIoctlClient* client);
+  [[nodiscard]] input_absinfo rangeOf(std::size_t axis) const;
 
   UMockdevTestbed* bed_;
   std::string node_, device_;
@@ -47,6 +52,7 @@ class UmockdevMouse {
   std::mutex lock_;
   std::vector<std::uint16_t> held_;
   std::atomic<bool> grabbed_ = false;
+  std::atomic<int> pedal_ = 0;
   int unknown_ = 0;
   RequestLoop requests_;
 };
