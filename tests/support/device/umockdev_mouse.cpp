@@ -76,17 +76,19 @@ input_absinfo UmockdevMouse::rangeOf(std::size_t axis) const {
   return {.minimum = is_trigger ? 0 : -most, .maximum = most};
 }
 
+bool UmockdevMouse::grab(UMockdevIoctlClient* client) {
+  std::uintptr_t wanted = 0;  // a number for an argument, not a pointer
+  std::memcpy(&wanted, umockdev_ioctl_client_get_arg(client)->data, sizeof wanted);
+  grabbed_ = wanted != 0;
+  umockdev_ioctl_client_complete(client, 0, 0);
+  return true;
+}
+
 bool UmockdevMouse::answer(UMockdevIoctlClient* client) {
   const auto request = umockdev_ioctl_client_get_request(client);
   const std::size_t size = _IOC_SIZE(request);
   const unsigned number = _IOC_NR(request);
-  if (request == EVIOCGRAB) {  // a number for an argument, not a pointer
-    std::uintptr_t wanted = 0;
-    std::memcpy(&wanted, umockdev_ioctl_client_get_arg(client)->data, sizeof wanted);
-    grabbed_ = wanted != 0;
-    umockdev_ioctl_client_complete(client, 0, 0);
-    return true;
-  }
+  if (request == EVIOCGRAB) return grab(client);
   UMockdevIoctlData* data = umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
   const auto complete = [client](long result, int error = 0) {
     umockdev_ioctl_client_complete(client, result, error);

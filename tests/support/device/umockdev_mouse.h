@@ -44,6 +44,7 @@ class UmockdevMouse {
 
  private:
   bool answer(UMockdevIoctlClient* client);
+  bool grab(UMockdevIoctlClient* client);
   [[nodiscard]] input_absinfo rangeOf(std::size_t axis) const;
 
   UMockdevTestbed* bed_;
