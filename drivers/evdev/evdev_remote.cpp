@@ -39,12 +39,18 @@ bool isKeyboard(const libevdev* device) {
   return libevdev_has_event_code(device, EV_KEY, KEY_Q) != 0 && libevdev_has_event_code(device, EV_KEY, KEY_M) != 0;
 }
 
+// Of a mouse, a joystick or a gamepad: no key of a remote control.
+bool isButton(std::uint16_t code) noexcept {
+  return (code >= BTN_MISC && code < KEY_OK) || code >= BTN_DPAD_UP;
+}
+
 struct Remote {
   std::string path;
   UniqueFd fd;  // declared first, to be closed after the device is freed
   Device device;
   KeyHold keys;
   std::optional<PadKeys> pad;
+  bool has_keys = true;  // besides a gamepad's
   bool there = true;
 };
 
@@ -128,6 +134,7 @@ class EvdevRemote final : public RemoteInput {
     if (!is_pad && (pads_only_ || !isRemote(device))) return true;
     if (is_pad) {
       remote->pad.emplace(device);
+      remote->has_keys = !pads_only_ && isRemote(device);
       remote->keys = KeyHold(true);
     }
     if (!is_pad && !isKeyboard(device))
@@ -151,7 +158,8 @@ class EvdevRemote final : public RemoteInput {
       if (read < 0) return false;
       if (read == LIBEVDEV_READ_STATUS_SYNC) how = LIBEVDEV_READ_FLAG_SYNC;
       if (remote.pad) remote.pad->take(event, remote.keys, now);
-      else if (event.type == EV_KEY) remote.keys.take(event.code, event.value, now);
+      const bool is_key = event.type == EV_KEY && (!remote.pad || !isButton(event.code));
+      if (is_key && remote.has_keys) remote.keys.take(event.code, event.value, now);
     }
   }
 

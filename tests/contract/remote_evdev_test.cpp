@@ -129,6 +129,22 @@ TEST_F(RemoteEvdev, APadIsARemoteExceptForTheFingersStickAndTriggers) {
   EXPECT_EQ(pad.unknownRequests(), 0);
 }
 
+// A box's remote control with a gamepad's buttons in one node.
+TEST_F(RemoteEvdev, APadWithARemotesKeysGivesBoth) {
+  auto codes = UmockdevMouse::pad();
+  codes[EV_KEY].push_back(KEY_PLAYPAUSE);
+  UmockdevMouse pad(bed_, 7, codes);
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  press(pad, KEY_PLAYPAUSE, 1);
+  expectNext(*remote, KEY_PLAYPAUSE, KeyEvent::Action::Press);
+  press(pad, KEY_PLAYPAUSE, 0);
+  expectNext(*remote, KEY_PLAYPAUSE, KeyEvent::Action::Release);
+  press(pad, BTN_THUMBL, 1);  // the finger's
+  press(pad, BTN_EAST, 1);
+  expectNext(*remote, BTN_EAST, KeyEvent::Action::Press);
+}
+
 // As drivers/gamepad reads the same devices: a key that presses the finger in is no key of the remote.
 TEST_F(RemoteEvdev, TheFingersKeyAndAWheelWithAPedalGiveNoKeys) {
   auto codes = UmockdevMouse::pad();
