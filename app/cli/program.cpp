@@ -62,6 +62,9 @@ int tellExhausted(const std::exception& error) {
     if (auto* const act = last_act.load()) act();
     std::_Exit(tellExhausted(error));
   } catch (const std::system_error& error) {
+    const bool no_room =
+        error.code() == std::errc::resource_unavailable_try_again || error.code() == std::errc::not_enough_memory;
+    if (!no_room) std::abort();
     if (auto* const act = last_act.load()) act();
     std::_Exit(tellExhausted(error));
   } catch (...) {
