@@ -189,8 +189,7 @@ bool UmockdevUsb::answer(UMockdevIoctlClient* client) {
       if (done_.empty()) return complete(-1, EAGAIN);
       const Urb urb = done_.front();
       done_.pop_front();
-      UMockdevIoctlData* slot = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
-      umockdev_ioctl_data_set_ptr(slot, 0, urb.urb);
+      umockdev_ioctl_data_set_ptr(umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr), 0, urb.urb);
       return complete(0);
     }
     case USBDEVFS_DISCARDURB:
