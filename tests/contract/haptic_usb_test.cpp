@@ -226,17 +226,6 @@ TEST(LibusbPort, TakesEveryPacketInItsOrder) {
   EXPECT_EQ(next, 200);
 }
 
-TEST(LibusbPort, AfterAFailedStartTheKernelHasNothingOfIt) {
-  if (!test::machineIsMocked()) GTEST_SKIP() << test::kNoPlug;
-  Counter counter;
-  test::UmockdevUsb usb(counter, falcon::kUsbId);
-  const auto port = makeLibusbPort({falcon::kUsbId});
-  ASSERT_TRUE(port->open());
-  usb.refuseSubmit(2);
-  EXPECT_FALSE(port->startExchange({}));
-  EXPECT_EQ(usb.waiting(), 0u);
-}
-
 TEST(FalconUsb, LoadsItsFirmwareAlsoWhenTheFirstTryFailsInEachWayThatUsersReport) {
   const FalconFaults ways[] = {
       {.silent_loads = 1}, {.wrong_echo_loads = 1}, {.dead_loads = 1}, {.leading_zero = true}, {.most_payload = 3}};
