@@ -10,6 +10,7 @@
 
 #include "app/depth_window/flicker.h"
 #include "app/depth_window/lattice.h"
+#include "app/depth_window/quantile.h"
 #include "app/depth_window/ripples.h"
 
 namespace relievo {
@@ -19,11 +20,10 @@ constexpr double kEdgeMm = 3.0;
 constexpr double kRoundingMm = 1e-6;
 constexpr int kWideBlock = 64;  // wide enough to tell whether its rows are read whole
 
-// For normally distributed noise the median of the magnitude is 0.6745 standard deviations; the
-// second difference of three samples has 1 + 4 + 1 times their variance.
+// For normally distributed noise the median of the magnitude is 0.6745 standard deviations.
 constexpr double kMedianOfNormal = 0.6745;
-// The noise that these two factors compute from a second difference of one step: 1/(0.6745 sqrt(6)) = 0.605 of the
-// step, rounded up so that no quantisation counts as noise.
+// The noise that this factor and kBendVariance compute from a second difference of one step: 1/(0.6745 sqrt(6)) =
+// 0.605 of the step, rounded up so that no quantisation counts as noise.
 constexpr double kStepAsNoise = 0.61;
 // A still sample moves by less than this multiple of its noise between frames at 19 of 20 places: 1.96 sqrt(2) = 2.77.
 constexpr double kNoiseAsMotion = 2.8;
@@ -32,14 +32,6 @@ constexpr double kNoiseAsMotion = 2.8;
 // more are, but for a plane so shallow that it has hardly any steps. Waves of one or two steps have narrow tops, which
 // are ripples too: .022 and more. A codec that leaves as many leaves little else.
 constexpr double kRipplesOfCodec = 0.001, kRipplesOfWaves = 0.02;
-
-// The quantile of the list; 0 if it is empty.
-double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 // What the samples of a row tell, in mm that a step of code has on average: under the inverse law a step is higher far
 // away (HeightField::stretchAt), and the number of codes between two samples tells steps and noise.

@@ -26,7 +26,7 @@ struct ClipMeasure {
 };
 // Frames in ascending order, all of one size. All zero without frames.
 [[nodiscard]] ClipMeasure measureClip(std::span<const TimedSurface> frames);
-// The variance of a second difference, 1 -2 1, of noise of variance 1.
+// The variance of a second difference of three samples (1, -2, 1) whose noise has variance 1: 1 + 4 + 1.
 inline constexpr double kBendVariance = 6;
 // What the noise leaves of the codes' steps, as dither does, in mm.
 [[nodiscard]] double stepsUnderNoise(const ClipMeasure& measure);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/depth_window/felt_scale.h"
+#include "app/depth_window/quantile.h"
 
 namespace relievo {
 namespace {
@@ -52,13 +53,6 @@ struct Differences {
   }
 };
 
-double quantile(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(kShareOfPlaces * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 double wavesOf(std::span<const TimedSurface> frames, double block_mm, double step_mm, double noise_mm) {
   const HeightField& field = frames.front().field;
   const auto samples = [block_mm](double per_mm) {
@@ -94,7 +88,8 @@ double wavesOf(std::span<const TimedSurface> frames, double block_mm, double ste
   const double least_variance = kFourthVariance * noise_mm * noise_mm / (block.across.count * block.down.count);
   double most2 = 0;
   for (Differences* found : {&across, &down}) {
-    const double waves = quantile(found->mean), variance = std::max(quantile(found->variance), least_variance);
+    const double waves = quantile(found->mean, kShareOfPlaces);
+    const double variance = std::max(quantile(found->variance, kShareOfPlaces), least_variance);
     const double noise = kTimesTheNoise * kQuantileOfNormal * std::sqrt(variance);
     most2 = std::max(most2, waves * waves - noise * noise - step_mm * step_mm);
   }

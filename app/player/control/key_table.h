@@ -50,8 +50,8 @@ class KeyTable {
   [[nodiscard]] const Binding* find(PlayerState state, std::uint16_t code) const noexcept;
   // The meaning of the viewer's keys in a state: a row for each command, in plain words.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> rowsIn(PlayerState state, KeyBoard held) const;
-  // The key for this command, with its label: one key of a keyboard or a
-  // gamepad, or all of a remote control; empty: none.
+  // The key for this command, with its label: one key of a keyboard or a gamepad, or all of a remote control; empty:
+  // none.
   [[nodiscard]] std::string keyFor(PlayerVerb verb, PlayerState state, KeyBoard held) const;
   // For the help: a line for each command, with its keys' names.
   [[nodiscard]] std::string help() const;
