@@ -117,6 +117,7 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   action.sa_flags = 0;
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
+  std::at_quick_exit([] { last_act.load()(); });
   action.sa_handler = endNow;
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGVTALRM, SIGPROF}) {
     struct sigaction old{};

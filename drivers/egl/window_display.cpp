@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "drivers/egl/desktop_loss.h"
 #include "drivers/egl/desktop_scale.h"
 
 namespace relievo {
@@ -55,6 +56,7 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
                        SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
                            (film_size_ ? SDL_WINDOW_HIDDEN : SDL_WINDOW_SHOWN));
   if (window_ == nullptr) return fail(ErrorCode::Unsupported, kNoGles);
+  endWithXServer(*window_);
   SDL_SetWindowData(window_, kWindowOwner, this);
   if (film_size_ || config.fits_desktop) takeSize(config.width, config.height);
   context_ = SDL_GL_CreateContext(window_);

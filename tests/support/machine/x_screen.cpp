@@ -125,10 +125,14 @@ XScreen::~XScreen() {
   ::unsetenv("DISPLAY");
 }
 
-void XScreen::kill() {
+void XScreen::kill(bool answered) {
   if (server_ <= 0) return;
   XCloseDisplay(connection_);  // before the server ends, or Xlib would end this program
   connection_ = nullptr;
+  if (!answered) {
+    ::kill(server_, SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // the socket's buffer fills
+  }
   ::kill(server_, SIGKILL);
   ::waitpid(server_, nullptr, 0);
   server_ = 0;

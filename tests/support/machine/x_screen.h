@@ -72,8 +72,9 @@ class XScreen {
   // Drops a file on the window, as a file manager does (XDND 5). False if the window does not take it within seconds.
   [[nodiscard]] bool drop(unsigned long window, const std::string& path) const;
 
-  // Kills the server, as at the end of a session.
-  void kill();
+  // Kills the server, as at the end of a session. `answered` false: it stops answering before, so that a client is
+  // killed off in the middle of drawing.
+  void kill(bool answered = true);
 
  private:
   XScreen(pid_t server, _XDisplay* connection) : server_(server), connection_(connection) {}
