@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A disk that fails while a film is read from it. Replaces the C library's preadv2 in the program.
+// A disk that fails while a film is read from it. Replaces the C library's preadv2 in the program, and its pread, which
+// reads where the file system (tmpfs) knows nothing of RWF_NOWAIT.
 #pragma once
 
 #include <sys/syscall.h>
@@ -8,6 +9,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -29,6 +31,14 @@ inline std::optional<ErrorCode> endOnFailingDisk(MediaSource& source) {
 }
 
 }  // namespace relievo::test
+
+[[gnu::weak]] ssize_t pread(int fd, void* bytes, std::size_t size, off_t offset) {
+  if (relievo::test::disk_fails) {
+    errno = EIO;
+    return -1;
+  }
+  return ::syscall(SYS_pread64, fd, bytes, size, offset);
+}
 
 [[gnu::weak]] ssize_t preadv2(int fd, const iovec* parts, int count, off_t offset, int flags) {
   if (relievo::test::disk_fails) {

@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/estimate/depth_command.h"
@@ -134,13 +136,16 @@ TEST(DepthCommand, IsNamedByItsBeginningWhereItIsLong) {
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("xx..\", which reads and writes nothing"));
 }
 
-// True if the process is gone, or has ended and waits for its new parent to collect it.
+// True if the process is gone, or has ended and waits for its new parent to collect it; a killed one needs a moment.
 bool isGone(pid_t pid) {
-  if (::kill(pid, 0) != 0) return true;
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string number, name, state;
-  file >> number >> name >> state;
-  return state == "Z" || state.empty();
+  for (int tries = 0; tries < 2000; ++tries) {
+    if (::kill(pid, 0) != 0) return true;
+    std::ifstream("/proc/" + std::to_string(pid) + "/stat") >> number >> name >> state;
+    if (state == "Z" || state.empty()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return false;
 }
 
 TEST(DepthCommand, NothingOfItIsLeftBehind) {
