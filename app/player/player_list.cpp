@@ -6,6 +6,12 @@
 #include "platform/log.h"
 
 namespace relievo {
+namespace {
+
+constexpr Error kNoPicture{ErrorCode::Corrupt, 0,
+                           "it ended without a single picture; check that its files are still there and whole"};
+
+}  // namespace
 
 void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now) {
   if (!nextState(state_, PlayerEvent::Open)) return;
@@ -62,6 +68,7 @@ void Player::stopFilm(MonotonicTime now) {
 }
 
 void Player::endFilm(MonotonicTime now) {
+  if (film_.gaveNone(now)) return failFilm(programme_.film().url, kNoPicture);
   film_.countPlayed(now);
   const std::vector<LostPart> lost = film_.noteMissing();
   if (!lost.empty() && endsWithFilms() && !missed_) missed_ = failureOf(lost.front());

@@ -198,6 +198,12 @@ bool FilmPlayback::arriving(MonotonicTime now) {
   return true;
 }
 
+// After a refused seek a film reads on from its end, and by key frames it may have none.
+bool FilmPlayback::gaveNone(MonotonicTime now) const {
+  const bool from_begin = target_.value_or(MediaTime{}) == MediaTime{} && !refusesSeeks();
+  return from_begin && !rushes() && !clock_.position(now);
+}
+
 Result<void> FilmPlayback::pause(MonotonicTime now) {
   held_ = true;
   countPlayed(now);

@@ -83,6 +83,8 @@ class FilmPlayback {
   void seek(MediaTime target, MonotonicTime now);
   // True when the seek has been carried out or refused. After a refusal the film continues from where it is, at rate 1.
   [[nodiscard]] bool arriving(MonotonicTime now);
+  // After Over: not one picture came since the film was opened, or since the seek to its beginning.
+  [[nodiscard]] bool gaveNone(MonotonicTime now) const;
   // True once the open film has refused a seek.
   [[nodiscard]] bool refusesSeeks() const noexcept { return notes_.refusesSeeks(); }
 

@@ -232,6 +232,19 @@ TEST_F(PlayerLists, AListOfWhichNothingCanBePlayedFails) {
   playsAllBut("./a");
 }
 
+// As a folder whose pictures have been deleted while they played.
+TEST_F(PlayerLists, OnLoopAFilmThatGivesNoMorePicturesFails) {
+  bench_.sources["film"].end_after_packets = 200;
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(10);
+  const auto played = bench_.run();
+  ASSERT_FALSE(played);
+  EXPECT_EQ(played.error().thing, "film");
+  EXPECT_THAT(played.error().error.message, HasSubstr("without a single picture"));
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing ended seeking buffering fault");
+}
+
 TEST_F(PlayerLists, AListThatNamesFilesOfTheBoxFromTheNetworkOpensNothing) {
   bench_.texts["http://host/list.m3u"] = "#EXTM3U\nfile:///etc/passwd\n";
   bench_.sources["file:///etc/passwd"] = bench_.sources["film"];
