@@ -80,7 +80,8 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
     found.color = {folder, oneKind(std::move(color), found.left_out)};
     return;
   }
-  const auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
+  auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
+  keepLeftView(depth), keepLeftView(color);
   found.left_out += names.size() - depth.size() - color.size();
   found.depth = {folder, oneKind(depth, found.left_out)};
   found.color = {folder, oneKind(color, found.left_out)};
@@ -106,8 +107,12 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   };
   found.color = open(Role::Color);
   found.depth = open(Role::Depth);
-  if (found.color.names.empty() && !found.depth.names.empty())
-    found.color = {folder, oneKind(listing.pictures, found.left_out)};
+  if (found.color.names.empty() && !found.depth.names.empty()) {
+    const auto stereo = stereoAmong(listing.folders, Named::Folders);
+    found.color = stereo ? picturesIn(folder + stereo->left + "/", found)
+                         : PictureFiles{folder, oneKind(listing.pictures, found.left_out)};
+    if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", found).names.size();
+  }
   return !found.color.names.empty() || !found.depth.names.empty();
 }
 

@@ -62,6 +62,13 @@ bool isPaintedDepth(std::string_view name) {
   return roleOf(name) == Role::Depth && holdsOne(wordsOf(name), kPainted);
 }
 
+void keepLeftView(std::vector<std::string>& names) {
+  const auto says = [](std::string_view view) {
+    return [view](const std::string& name) { return holdsOne(wordsOf(name), std::array{view}); };
+  };
+  if (std::ranges::any_of(names, says("left"))) std::erase_if(names, says("right"));
+}
+
 std::string bestOf(const std::vector<std::string>& names, Role role) {
   std::vector<std::string> found;
   std::ranges::copy_if(names, std::back_inserter(found), [role](const auto& name) { return roleOf(name) == role; });

@@ -22,6 +22,9 @@ enum class Role : std::uint8_t {
 // Whether a name of depth says that it is painted for the eye: "depth_vis", "depth_colormap".
 [[nodiscard]] bool isPaintedDepth(std::string_view name);
 
+// Drops the names that say "right" if others say "left".
+void keepLeftView(std::vector<std::string>& names);
+
 // The best of the `names` with this role; empty if none has it. Depth that is not painted goes first, then what is in
 // the colour's view ("aligned_depth"), then what is nothing but the word, then the first in natural order.
 [[nodiscard]] std::string bestOf(const std::vector<std::string>& names, Role role);

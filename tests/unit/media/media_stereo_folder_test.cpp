@@ -123,6 +123,30 @@ TEST_F(StereoFolder, OfFoldersIsAFilmOfStereoPairs) {
   EXPECT_EQ(test::sampleAt(film.pair.right, 0, 0, 0), 100u);
 }
 
+// The left view is the colour; the right one is left out with a word.
+TEST_F(StereoFolder, OfTwoViewsAndTheirDepthIsAFilmOfTheLeftView) {
+  const auto expectLeftView = [&](const std::string& name, std::size_t left_out) {
+    const test::OpenedFilm film = test::openFilm({.url = folder_ / name});
+    ASSERT_TRUE(film.info.has_depth) << name;
+    EXPECT_NEAR(toSeconds(film.info.duration), 0.1, 1e-3) << name;
+    ASSERT_FALSE(film.pair.color.empty()) << name;
+    EXPECT_EQ(test::sampleAt(film.pair.color, 0, 0, 0), 200u) << name;
+    EXPECT_EQ(test::sampleAt(film.pair.depth, 0, 80, 20), 120u) << name;
+    EXPECT_THAT(film.info.notes, Contains(std::to_string(left_out) + " other pictures are left out")) << name;
+  };
+  for (int k = 0; k < 3; ++k) {
+    const std::string number = std::to_string(k) + ".png";
+    view("f/left/" + number, 200), view("f/right/" + number, 100);
+    std::filesystem::create_directories(folder_ / "f/depth");
+    view("m/left" + number, 200), view("m/right" + number, 100);
+    view("w/" + std::to_string(k) + ".left.png", 200), view("w/" + std::to_string(k) + ".right.png", 100);
+    for (const char* depth : {"f/depth/", "m/depth"}) disparities(depth + number, [](double) { return 120; });
+    disparities("w/" + std::to_string(k) + ".left.depth.png", [](double) { return 120; });
+    disparities("w/" + std::to_string(k) + ".right.depth.png", [](double) { return 60; });
+  }
+  expectLeftView("f", 3), expectLeftView("m", 3), expectLeftView("w", 6);
+}
+
 TEST_F(StereoFolder, ThreePicturesInARowAreAFilm) {
   for (int k = 0; k < 3; ++k) view("im" + std::to_string(k) + ".png", 100);
   const test::OpenedFilm film = open();
