@@ -54,8 +54,9 @@ bool beginsWith(std::string_view name, char letter) {
 Role roleOf(std::string_view name) {
   const std::vector<std::string> words = wordsOf(name);
   if (holdsOne(words, kOther)) return Role::Other;
-  if (holdsOne(words, kDepth) || beginsWith(name, 'd')) return Role::Depth;
-  return holdsOne(words, kColor) || beginsWith(name, 'r') ? Role::Color : Role::Unsaid;
+  const char letter = matterportLetter(name);
+  if (holdsOne(words, kDepth) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
+  return holdsOne(words, kColor) || beginsWith(name, 'r') || letter == 'i' ? Role::Color : Role::Unsaid;
 }
 
 bool isPaintedDepth(std::string_view name) {

@@ -65,4 +65,14 @@ bool naturalLess(std::string_view a, std::string_view b) noexcept {
   return whole_a < whole_b;
 }
 
+char matterportLetter(std::string_view name) noexcept {
+  constexpr std::size_t kDigits = 32, kRest = 5;
+  const std::string_view stem = name.substr(0, name.find('.'));
+  if (stem.size() != kDigits + kRest || stem.find_first_not_of("0123456789abcdef") != kDigits) return '\0';
+  const std::string_view rest = stem.substr(kDigits);
+  const bool of_form =
+      rest[0] == '_' && rest[2] >= '0' && rest[2] <= '2' && rest[3] == '_' && rest[4] >= '0' && rest[4] <= '5';
+  return of_form && (rest[1] == 'd' || rest[1] == 'i') ? rest[1] : '\0';
+}
+
 }  // namespace relievo

@@ -37,4 +37,8 @@ enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 // True if `a` comes before `b` when runs of digits count as numbers: "2.png" before "10.png".
 [[nodiscard]] bool naturalLess(std::string_view a, std::string_view b) noexcept;
 
+// The letter in a name of Matterport3D's form, such as "0f37bd0737e349de9d536263a4bdd60d_d0_3.png": 'd' for depth, 'i'
+// for colour; '\0' for any other name.
+[[nodiscard]] char matterportLetter(std::string_view name) noexcept;
+
 }  // namespace relievo

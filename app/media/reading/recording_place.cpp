@@ -10,6 +10,7 @@
 
 #include "app/media/reading/depthkit_file.h"
 #include "app/media/reading/float_reading.h"
+#include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
 #include "platform/print.h"
@@ -199,6 +200,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
     // The picture reader has already put a PGM's bytes in order.
     return named(path.extension() == ".pgm" ? "kinect-raw" : "nyu-raw", "NYU's form d-SECONDS-TICKS");
   }
+  if (matterportLetter(path.filename().string()) == 'd') return named("matterport", "Matterport3D's form HEX_d0_0");
   const std::string words = lowerCase(path.string());
   for (const Sign& sign : kSigns) {
     if (words.find(sign.word) != std::string::npos) return named(sign.kind, sign.word);

@@ -91,6 +91,11 @@ TEST_F(PictureFolder, NamesAndCameraFilesGiveTheUnit) {
     return reader.info().calibration.calibration.unit_mm.value_or(0);
   };
   EXPECT_EQ(unit("m"), 0.25);
+  const std::string point = "b/0f37bd0737e349de9d536263a4bdd60d";
+  picture(point + "_i0_3.ppm", 7), picture(point + "_d0_3.pgm", 8000);
+  EXPECT_EQ(unit("b"), 0.25) << "Matterport3D without its folders";
+  EXPECT_EQ(unit((point + "_d0_3.pgm").c_str()), 0.25);
+  EXPECT_EQ(story({.url = folder_ / "b"}), "0 7:8000");
   EXPECT_EQ(unit("v"), 10);
   EXPECT_NEAR(unit("r"), 1000 / 6553.5, 1e-6);
   EXPECT_EQ(unit("o"), 0.25);
