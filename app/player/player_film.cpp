@@ -187,13 +187,14 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const auto seen = screen_.show(film_.picture(), film_.late(now), film_.coming(), marks(), now);
+  const auto seen = screen_.show(film_.picture(), film_.goal(now), film_.late(now), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
   else if (*seen) film_.noteShown();
 }
 
 void Player::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {
-  if (auto drawn = screen_.redraw(fingers, next_picture, now); !drawn) failDrawing(drawn.error());
+  const MediaTime place = film_.place(now).value_or(MediaTime{});
+  if (auto drawn = screen_.redraw(fingers, place, next_picture, now); !drawn) failDrawing(drawn.error());
 }
 
 // The finger marks, unless there is nothing to feel.

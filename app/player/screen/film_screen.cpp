@@ -63,9 +63,9 @@ void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolu
   text_.wake(now);
 }
 
-Result<bool> FilmScreen::show(const FramePair& pair, std::optional<Duration> late, const DepthComing& coming,
-                              const FingerMarks& fingers, MonotonicTime now) {
-  picture_.setPair(pair, late);
+Result<bool> FilmScreen::show(const FramePair& pair, MediaTime place, std::optional<Duration> late,
+                              const DepthComing& coming, const FingerMarks& fingers, MonotonicTime now) {
+  picture_.setPair(pair, place, late);
   lookAhead(pair.depth, coming);
   const auto seen = draw(fingers, now);
   if (!seen || !*seen) {
@@ -81,10 +81,11 @@ Result<bool> FilmScreen::show(const FramePair& pair, std::optional<Duration> lat
   return true;
 }
 
-Result<void> FilmScreen::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {
+Result<void> FilmScreen::redraw(const FingerMarks& fingers, MediaTime place, MonotonicTime next_picture,
+                                MonotonicTime now) {
   if (!redraw_) {
     if (now < drawn_at_ + kRedrawPeriod || next_picture < now + kRedrawPeriod) return {};
-    if (!picture_.away() && !movedVisibly(fingers, drawn_fingers_)) return {};
+    if (!picture_.away() && !movedVisibly(fingers, drawn_fingers_) && !picture_.subtitlesChange(place)) return {};
   }
   const auto drawn = draw(fingers, now);
   return drawn ? Result<void>{} : std::unexpected(drawn.error());

@@ -48,9 +48,10 @@ class FilmScreen {
   void announce(const AnnouncedFilm& film) { picture_.announce(film); }
   // Files and addresses that the viewer has dropped on the window since the last call.
   [[nodiscard]] std::vector<std::string> takeDropped() { return picture_.takeDropped(); }
-  // Draws a picture of the film; `coming` follows it. False if the screen is lost: the picture counts as dropped.
-  [[nodiscard]] Result<bool> show(const FramePair& pair, std::optional<Duration> late, const DepthComing& coming,
-                                  const FingerMarks& fingers, MonotonicTime now);
+  // Draws a picture of the film, and the subtitles of `place`; `coming` follows it. False if the screen is lost: the
+  // picture counts as dropped.
+  [[nodiscard]] Result<bool> show(const FramePair& pair, MediaTime place, std::optional<Duration> late,
+                                  const DepthComing& coming, const FingerMarks& fingers, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return picture_.subtitles(); }
@@ -61,9 +62,10 @@ class FilmScreen {
   void saveScreenshot(const std::string& film);
   // Counts pictures that were never shown.
   void skip(std::uint64_t pictures) noexcept { dropped_ += pictures; }
-  // Between two pictures of the film: draws the present one again if a finger or the text has changed and there is time
-  // until `next_picture`.
-  [[nodiscard]] Result<void> redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now);
+  // Between two pictures of the film, at `place`: draws the present one again if a finger, the text or a subtitle has
+  // changed and there is time until `next_picture`.
+  [[nodiscard]] Result<void> redraw(const FingerMarks& fingers, MediaTime place, MonotonicTime next_picture,
+                                    MonotonicTime now);
   // For when there is no film: the next redraw draws a black picture.
   void clear() noexcept;
   // Updates the text over the picture, from the first picture on, and the list of films.

@@ -62,8 +62,8 @@ void Picture::announce(const AnnouncedFilm& film) {
   display_.announce(film);
 }
 
-void Picture::setPair(const FramePair& pair, std::optional<Duration> late) {
-  due_ = {.pair = pair, .late = late};
+void Picture::setPair(const FramePair& pair, MediaTime place, std::optional<Duration> late) {
+  due_ = {.pair = pair, .place = std::max(pair.color.pts, place), .late = late};
 }
 
 void Picture::clear() noexcept {
@@ -139,17 +139,29 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     if (auto rehearsed = renderer_->rehearse(surface, *rehearsal_.stop); !rehearsed) return rehearsed;
     words_.forget();
   }
-  const TextFrame frame = textFrame();
-  const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
-  if (subtitles_.draw(frame, due_.pair.color.pts, room) || renewed) {
-    renderer_->setSubtitles(frame, subtitles_.pictures());
-  }
+  drawSubtitles(renewed);
   renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
+  const TextFrame frame = textFrame();
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());
   if (auto drawn = renderer_->draw(surface, fingers, std::exchange(due_.late, Duration(0))); !drawn) return drawn;
   statistics_ = renderer_->statistics();
   return {};
+}
+
+bool Picture::subtitlesChange(MediaTime place) {
+  constexpr Duration kStep = std::chrono::milliseconds(33);  // drawing text costs time, even if nothing has changed
+  if (renderer_ == nullptr || place < due_.place + kStep) return false;
+  due_.place = place;
+  return drawSubtitles(false);
+}
+
+bool Picture::drawSubtitles(bool renewed) {
+  const TextFrame frame = textFrame();
+  const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
+  const bool changed = subtitles_.draw(frame, due_.place, room) || renewed;
+  if (changed) renderer_->setSubtitles(frame, subtitles_.pictures());
+  return changed;
 }
 
 Result<void> Picture::captureFrom(const DisplaySurface& surface, const FingerMarks& fingers) {

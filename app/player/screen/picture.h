@@ -54,15 +54,18 @@ class Picture {
   void fillScreen(FullScreen wish) { display_.fillScreen(wish); }
   [[nodiscard]] bool isFullScreen() const noexcept { return display_.isFullScreen(); }
   [[nodiscard]] std::vector<std::string> takeDropped() { return display_.takeDropped(); }
-  // The pair that `show` shows from now on; a reference is kept for a screen that returns. `late`: how long after its
-  // time it is shown first.
-  void setPair(const FramePair& pair, std::optional<Duration> late = {});
+  // The pair that `show` shows from now on; a reference is kept for a screen that returns. `place`: the film's
+  // position, if it is later than the picture's time. `late`: how long after its time it is shown first.
+  void setPair(const FramePair& pair, MediaTime place = {}, std::optional<Duration> late = {});
   // From the next `show` on: black, with the text if there is any.
   void clear() noexcept;
   // The text over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return subtitles_; }
+  // While the picture stands and the film goes on to `place`: true if a subtitle has begun or ended, so that the
+  // picture should be drawn again.
+  [[nodiscard]] bool subtitlesChange(MediaTime place);
   // The next picture does not continue this one.
   void cut() noexcept { cut_ = true; }
   // The reliefs after the present picture, for the subtitles; they must live until the next call.
@@ -116,6 +119,7 @@ class Picture {
   void lose(MonotonicTime now) noexcept;
   [[nodiscard]] Result<void> drawAndPresent(const FingerMarks& fingers);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
+  bool drawSubtitles(bool renewed);
   [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const FingerMarks& fingers);
   [[nodiscard]] bool isBound() noexcept;
   void followSignal(const DisplaySurface& surface) noexcept;
@@ -136,6 +140,7 @@ class Picture {
   std::unique_ptr<SceneRenderer> renderer_;
   struct Due {
     FramePair pair;
+    MediaTime place;  // in the film: of its subtitles
     std::optional<Duration> late;
     bool uploaded = false;  // to the renderer
   };

@@ -28,12 +28,12 @@ class FilmScreenTest : public testing::Test {
     screen_.emplace(*display_, config_, stereo_, osd_, clock_, journal_, files_);
     ASSERT_TRUE(screen_->open(stop_));
   }
-  bool show() { return screen_->show({}, {}, {}, {}, clock_.now()).value_or(false); }
+  bool show() { return screen_->show({}, {}, {}, {}, {}, clock_.now()).value_or(false); }
   // How many pictures are presented when it is asked to draw again, `later` than before.
   int redraw(const std::optional<FingerMark>& finger, Duration later, MonotonicTime next = MonotonicTime::max()) {
     clock_.sleepUntil(clock_.now() + later);
     const int before = presented_;
-    EXPECT_TRUE(screen_->redraw({finger}, next, clock_.now()));
+    EXPECT_TRUE(screen_->redraw({finger}, {}, next, clock_.now()));
     return presented_ - before;
   }
   [[nodiscard]] PlayReport report() const {
@@ -92,7 +92,7 @@ TEST_F(FilmScreenTest, ThePictureLiesAsTheSignalSaysThatTheTelevisionTakes) {
     FilmScreen screen(*television, {.stereo = wish.wished, .other_stereo = true}, {.layout = wish.layout}, true, clock_,
                       journal, files_);
     ASSERT_TRUE(screen.open(stop_));
-    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, {}, {}, clock_.now()));
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(screen.show({}, {}, {}, {}, {}, clock_.now()));
     PlayReport report;
     screen.describe(report);
     EXPECT_EQ(report.stereo, wish.shown);
@@ -325,7 +325,7 @@ TEST_F(FilmScreenTest, APictureThatCannotBeDrawnIsRefusedAndTheNextOneIsShown) {
   if (const auto opened = screen.open(stop_); !opened) GTEST_SKIP() << opened.error().message;
   const auto shown = [&](int bits) {
     const Frame picture = test::makeGrayFrame(4, 4, bits, MediaTime{}, [](int, int) { return 1; });
-    return screen.show({.color = picture}, {}, {}, {}, clock_.now());
+    return screen.show({.color = picture}, {}, {}, {}, {}, clock_.now());
   };
   const auto refused = shown(7);
   ASSERT_FALSE(refused);
@@ -333,7 +333,7 @@ TEST_F(FilmScreenTest, APictureThatCannotBeDrawnIsRefusedAndTheNextOneIsShown) {
   const auto attended = screen.attend(clock_.now());
   EXPECT_TRUE(attended) << attended.error().message;
   screen.obey({.verb = PlayerVerb::SwapEyes, .value = 0, .word = ""});
-  EXPECT_TRUE(screen.redraw({}, MonotonicTime::max(), clock_.now())) << "it is tried once";
+  EXPECT_TRUE(screen.redraw({}, {}, MonotonicTime::max(), clock_.now())) << "it is tried once";
   EXPECT_TRUE(shown(8));
 }
 

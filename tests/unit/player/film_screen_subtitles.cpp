@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Subtitles over a picture that stands while the film goes on, as in a slide show.
+#include <gtest/gtest.h>
+
+#include "app/player/screen/film_screen.h"
+#include "drivers/egl/egl.h"
+#include "platform/log.h"
+#include "tests/support/film/depth_frames.h"
+
+namespace relievo {
+namespace {
+
+constexpr auto kMs = std::chrono::milliseconds(1);
+
+class SubtitlesOfAStandingPicture : public testing::Test {
+ protected:
+  void SetUp() override {
+    setLogLevel(LogLevel::Error);
+    if (!AssText::create()) GTEST_SKIP() << "no font here";
+    if (const auto opened = screen_.open(stop_); !opened) GTEST_SKIP() << opened.error().message;
+    screen_.subtitles().add({.begin = mediaTime(2),
+                             .end = mediaTime(3),
+                             .lines = {"0,0,Default,,0,0,0,,hello"},
+                             .styles = std::make_shared<const std::string>("[Script Info]\nPlayResY: 64\n")});
+  }
+  // A picture of the film's beginning, shown when the film is at `place`.
+  [[nodiscard]] bool hasWordsWhenShownAt(double place_s) {
+    const Frame picture = test::makeGrayFrame(8, 8, 8, MediaTime{}, [](int, int) { return 100; });
+    EXPECT_TRUE(screen_.show({.color = picture}, mediaTime(place_s), {}, {}, {}, clock_.now()));
+    return hasWords();
+  }
+  [[nodiscard]] bool hasWordsAt(double place_s, Duration later, MonotonicTime next = MonotonicTime::max()) {
+    clock_.sleepUntil(clock_.now() + later);
+    EXPECT_TRUE(screen_.redraw({}, mediaTime(place_s), next, clock_.now()));
+    return hasWords();
+  }
+  [[nodiscard]] bool hasWords() const { return !screen_.subtitles().pictures().empty(); }
+
+  ManualClock clock_;
+  std::atomic<bool> stop_{false};
+  Journal journal_{clock_};
+  FileWriter files_{FileWriter::Where::AtOnce};
+  std::unique_ptr<Display> display_ = makeOffscreenDisplay({}, clock_);
+  FilmScreen screen_{*display_, {.width = 64, .height = 64}, {}, true, clock_, journal_, files_};
+};
+
+TEST_F(SubtitlesOfAStandingPicture, ComeAndGoAtTheirTimes) {
+  EXPECT_FALSE(hasWordsWhenShownAt(0));
+  EXPECT_FALSE(hasWordsAt(1.9, 1900 * kMs));
+  EXPECT_TRUE(hasWordsAt(2.1, 200 * kMs));
+  EXPECT_TRUE(hasWordsAt(2.9, 800 * kMs));
+  EXPECT_FALSE(hasWordsAt(3.1, 200 * kMs));
+}
+
+// As after a seek.
+TEST_F(SubtitlesOfAStandingPicture, AreThoseOfThePlaceWhereItIsShown) {
+  EXPECT_TRUE(hasWordsWhenShownAt(2.5));
+  EXPECT_FALSE(hasWordsWhenShownAt(3.5));
+}
+
+TEST_F(SubtitlesOfAStandingPicture, StayWhileTheFilmHasNoPlace) {
+  EXPECT_TRUE(hasWordsWhenShownAt(2.5));
+  EXPECT_TRUE(hasWordsAt(0, 1000 * kMs));
+}
+
+TEST_F(SubtitlesOfAStandingPicture, WaitForAPictureThatComesSoon) {
+  EXPECT_FALSE(hasWordsWhenShownAt(0));
+  EXPECT_FALSE(hasWordsAt(2.1, 2100 * kMs, clock_.now() + 2120 * kMs));
+}
+
+// 40 ms after the picture that was drawn for the words; its end lies 10 ms behind that.
+TEST_F(SubtitlesOfAStandingPicture, AreDrawnThirtyTimesASecondAtMost) {
+  EXPECT_FALSE(hasWordsWhenShownAt(0));
+  EXPECT_TRUE(hasWordsAt(2.99, 2990 * kMs));
+  EXPECT_TRUE(hasWordsAt(3, 10 * kMs)) << "too soon";
+  EXPECT_FALSE(hasWordsAt(3.03, 30 * kMs));
+}
+
+}  // namespace
+}  // namespace relievo
