@@ -42,7 +42,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   const double pitch2 = 1 / std::abs(a_per_mm_ * b_per_mm_);  // a parabola of radius R bends by pitch^2/R
   most_bend_mm_ = static_cast<float>(std::min(pitch2 / kSharpestMm, kMostBendMm));
   pit_mm_ = static_cast<float>(-field.depthMm());
-  patch_ = ahead_ = {};
+  patch_ = ahead_ = bent_ = {};
   slots_read_ = 0;
   filled_.fill(0);
   hole_.fill(0);
@@ -50,7 +50,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
 }
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
-  patch_ = ahead_ = {};
+  patch_ = ahead_ = bent_ = {};
   slots_read_ &= ~(1U << slot);
   const auto keep = static_cast<std::uint8_t>(~(1U << slot));
   for (std::uint8_t& bits : filled_) bits &= keep;
@@ -247,20 +247,47 @@ void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Weigh
   }
 }
 
-void ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
-  if (ahead_ == Place{i0, j0, frames.wanted}) return;
+bool ControlGrid::isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT {
+  const auto counts = [&](int slot) RELIEVO_RT { return frames.weight[static_cast<std::size_t>(slot)] >= least; };
+  if (bent_ == Place{i0, j0, bent_.slots} && bent_.slots != 0 && counts(__builtin_ctz(bent_.slots))) return true;
+  bent_ = {};
+  const std::uint8_t* const at = frames.frame_of_slot.data();
+  int newest = -1;
+  for (std::uint32_t slots = frames.wanted; slots != 0; slots &= slots - 1) {
+    const int slot = __builtin_ctz(slots);
+    if (counts(slot) && (newest < 0 || at[slot] > at[newest])) newest = slot;
+  }
+  if (newest < 0) return false;
+  Frames one = frames;
+  one.wanted = 1U << newest;
+  if (!wasPatch(i0, j0, frames.wanted)) {
+    patch_ = {};  // its points may be replaced
+    complete({i0, j0, i0 + 4, j0 + 4}, one);
+  }
+  for (int j = j0; j < j0 + 4; ++j) {
+    for (int i = i0; i < i0 + 4; ++i) {
+      if (straight_->of_points[slotOf(i, j)][static_cast<std::size_t>(newest)] > 0) return false;
+    }
+  }
+  bent_ = {i0, j0, one.wanted};
+  return true;
+}
+
+bool ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
+  if (ahead_ == Place{i0, j0, frames.wanted}) return true;
   constexpr int kFarthest = kSide - 6;  // beyond, a point would take the place of one of the last patch or its rim
-  if (patch_.slots != 0 && std::max(std::abs(i0 - patch_.i), std::abs(j0 - patch_.j)) > kFarthest) return;
+  if (patch_.slots != 0 && std::max(std::abs(i0 - patch_.i), std::abs(j0 - patch_.j)) > kFarthest) return false;
   ahead_ = {};
   const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
   for (int j = j0; j < j0 + 4; ++j) {
     for (int i = i0; i < i0 + 4; ++i) {
-      if (blocks_read_ >= until) return;
+      if (blocks_read_ >= until) return false;
       if (!isComplete(i, j, frames)) complete({i, j, i + 1, j + 1}, frames);
     }
   }
   ahead_ = {i0, j0, frames.wanted};
   slots_read_ |= frames.wanted;
+  return true;
 }
 
 void ControlGrid::prefetch() const RELIEVO_RT {

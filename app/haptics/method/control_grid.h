@@ -86,9 +86,12 @@ class ControlGrid {
   [[nodiscard]] bool patchHasHoles() const RELIEVO_RT { return patch_holes_; }
   // How straight the same points are, 0 .. 1; after `patch` with the same frames.
   void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
+  // True if one of the frames with at least `least` of the weight has no straight point there. It reads the newest of
+  // these frames, and asks for another one when that has lost its weight.
+  [[nodiscard]] bool isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT;
   // Reads points around a place, of frames that will get a weight soon; stops once it has read `most` blocks, or those
-  // of one point. Reads no points so far away that they would evict the last patch.
-  void readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
+  // of one point. Reads no points so far away that they would evict the last patch. True if all of them have been read.
+  bool readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
   // The frames, one bit per slot, of which a whole patch or place has been read.
   [[nodiscard]] std::uint32_t slotsRead() const RELIEVO_RT { return slots_read_; }
   // Prefetches everything except the points.
@@ -135,9 +138,9 @@ class ControlGrid {
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  // The last patch, all of whose points are valid, and the last place of `readAhead`. Their `slots` are 0 once
-  // something was discarded or replaced.
-  Place patch_, ahead_;
+  // The last patch, all of whose points are valid, the last place of `readAhead`, and the place and frame of the last
+  // `isBent` that was true. Their `slots` are 0 once something was discarded or replaced.
+  Place patch_, ahead_, bent_;
   bool patch_holes_ = false;
   std::uint32_t slots_read_ = 0;
   std::uint64_t blocks_read_ = 0;

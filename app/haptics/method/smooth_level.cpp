@@ -92,7 +92,7 @@ void SmoothLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, con
 }
 
 void SmoothLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {
-  if (has_broad_) broad_.readAhead(slots, x_mm, y_mm, next);
+  if (has_broad_ && !broad_.bent()) broad_.readAhead(slots, x_mm, y_mm, next);
   if (!has_broad_ || !broad_.preparedStraight()) wide_.readAhead(slots, x_mm, y_mm, next);
 }
 

@@ -164,21 +164,19 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
 void SurfaceLevel::readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT {
   grid_.straightness(cell.i, cell.j, weighed_.frames, out.points);
   constexpr float kRounding = 1e-5F;  // of the frames' weights, whose sum is 1
-  out.all = out.none = true;
+  out.all = true;
   for (const Float4& row : out.points) {
-    for (int i = 0; i < 4; ++i) {
-      out.all = out.all && row[i] >= 1 - kRounding;
-      out.none = out.none && row[i] <= kRounding;
-    }
+    for (int i = 0; i < 4; ++i) out.all = out.all && row[i] >= 1 - kRounding;
   }
 }
 
 RELIEVO_TICK_CODE SurfaceLevel::Straightness SurfaceLevel::straightness(double x_mm, double y_mm) RELIEVO_RT {
+  if (bent_) return {};
   const Cell cell = cellOf(x_mm, y_mm);
   const bool prepared = since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_;
   if (!prepared) static_cast<void>(patchAt(cell));
   const StraightPatch& straight = prepared ? prepared_straight_ : straight_;
-  if (straight.all || straight.none) return {.all = straight.all, .share = {}};
+  if (straight.all) return {.all = true, .share = {}};
   return {.all = false, .share = pointOn(straight.points, cell)};
 }
 
@@ -228,10 +226,10 @@ RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell&
 void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                            const FrameMoment& later, double step_s) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
-  if (prepared_straight_.none && cell.i == prepared_i_ && cell.j == prepared_j_) {
-    weigh(slots, next, weighed_);
-    const bool all_read = weighed_.law == time_ && grid_.wasPatch(cell.i, cell.j, weighed_.frames.wanted);
-    if (all_read) return;  // still none of it, and no height is asked for
+  if (tells_straight_) {
+    bent_ = staysBent(slots, next, cell);
+    prepared_straight_.all = false;
+    if (bent_) return;  // no height is asked for
   }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
@@ -253,6 +251,15 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
     const auto jumps = (then_there == pit) != (here == pit);
     prepared_rate_[j] = jumps ? Float4{} : (then_there - here) / static_cast<float>(step_s);
   }
+}
+
+// A frame in which no point is straight leaves less than 1 - kCounts of straightness, which is none to SmoothLevel.
+bool SurfaceLevel::staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
+  constexpr float kCounts = 0.1F;
+  constexpr int kBlocksAtOnce = 32;  // a frame's
+  weighBy(time_, slots, moment, weighed_);
+  if (grid_.isBent(cell.i, cell.j, weighed_.frames, kCounts)) return true;
+  return bent_ && !grid_.readAhead(cell.i, cell.j, weighed_.frames, kBlocksAtOnce);
 }
 
 // A few blocks of the first frame that the law needs and of which none have been read.

@@ -45,7 +45,7 @@ class SurfaceLevel {
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // How straight the surface is around a place, 0 .. 1, as continuous as its height.
+  // How straight the surface is around a place, 0 .. 1, as continuous as its height; 0 where `bent`.
   struct Straightness {
     bool all = false;
     SurfacePoint share;  // valid unless all of it is straight
@@ -53,6 +53,9 @@ class SurfaceLevel {
   [[nodiscard]] Straightness straightness(double x_mm, double y_mm) RELIEVO_RT;
   // True if the surface is straight all around the place and moment given to `prepare`.
   [[nodiscard]] bool preparedStraight() const RELIEVO_RT { return prepared_straight_.all; }
+  // True if no point was straight around the place given to `prepare`, in a frame that counts. The other frames are not
+  // read then; where the surface becomes straight, they are read first, in a few ticks.
+  [[nodiscard]] bool bent() const RELIEVO_RT { return bent_; }
   // The height on a single frame: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
@@ -79,10 +82,10 @@ class SurfaceLevel {
     bool valid = false;  // at this moment
     [[nodiscard]] bool isOf(const Cell& cell) const RELIEVO_RT { return valid && cell.i == i && cell.j == j; }
   };
-  // The points' straightness, and whether all of them have the same.
+  // The points' straightness.
   struct StraightPatch {
     Patch points{};
-    bool all = false, none = false;  // of the points
+    bool all = false;  // of the points are straight
   };
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
   void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
@@ -100,11 +103,12 @@ class SurfaceLevel {
   void blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
   void addWhereUnsteady(const Weighed& weighed, const Cell& cell, Patch& out) const RELIEVO_RT;
   void readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
+  [[nodiscard]] bool staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;
   float steady_mm_;
-  bool cubic_, tells_straight_;
+  bool cubic_, tells_straight_, bent_ = false;
 
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;

@@ -33,6 +33,11 @@ double planeAndBall(double x, double y, double) {
   return kStepMm * std::round(1 / kStepMm * std::max(plane(x, y), r2 < 45 * 45 ? std::sqrt(45 * 45 - r2) - 15 : 0.0));
 }
 
+// Where the surface becomes straight, the broad level is read in so many ticks: a frame in each.
+void prepareAll(FeltSurface& surface, const SurfaceWindow& window, double t, double x, double y) {
+  for (int tick = 0; tick < 7; ++tick) surface.prepare(window, mediaTime(t), x, y);
+}
+
 double worstSlope(FeltSurface& surface, double from_x, double to_x) {
   double worst = 0;
   for (double x = from_x; x <= to_x; x += 0.7) {
@@ -67,6 +72,38 @@ TEST(SmoothLevel, TheBroadLevelAloneIsReadWhereItCounts) {
   };
   EXPECT_EQ(blocksAt(kBroad, -45), blocksAt(kWide, -45)) << "as many blocks, twice as large";
   EXPECT_GT(blocksAt(kBroad, 40), blocksAt(kWide, 40));
+}
+
+TEST(SmoothLevel, WhereItIsBentTheBroadLevelIsReadInOneFrame) {
+  const auto frames = film(planeAndBall);
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  FeltSurface wide(kWide), broad(kBroad);
+  ASSERT_TRUE(wide.moveTo(window, mediaTime(0.07)) && broad.moveTo(window, mediaTime(0.07)));
+  prepareAll(wide, window, 0.071, 40, 0);
+  prepareAll(broad, window, 0.071, 40, 0);
+  EXPECT_EQ(broad.blocksRead() - wide.blocksRead(), 32U);
+  const double of_ball = broad.height(40, 0);
+  EXPECT_EQ(of_ball, wide.height(40, 0));
+  prepareAll(broad, window, 0.071, -45, 0);
+  FeltSurface plain(kBroad);
+  ASSERT_TRUE(plain.moveTo(window, mediaTime(0.071)) && broad.moveTo(window, mediaTime(0.071)));
+  EXPECT_EQ(broad.height(-45, 0), plain.height(-45, 0)) << "the others follow where it is straight";
+}
+
+TEST(SmoothLevel, WhatWasBentBecomesStraightWithTheFilm) {
+  const auto frames =
+      film([](double x, double y, double t) { return t > 2.5 * kPeriod ? plane(x, y) : planeAndBall(x, y, t); });
+  const SurfaceWindow window = test::makeWindow(frames, kVolume);
+  FeltSurface wide(kWide), broad(kBroad);
+  bool bent = false, straight = false;
+  for (double t = 0.02; t < 5 * kPeriod; t += 0.001) {
+    ASSERT_TRUE(wide.moveTo(window, mediaTime(t)) && broad.moveTo(window, mediaTime(t)));
+    const double of_wide = wide.height(40, 0), of_broad = broad.height(40, 0);
+    bent |= of_broad == of_wide;
+    straight = of_broad != of_wide;
+    broad.prepare(window, mediaTime(t + 0.001), 40, 0);
+  }
+  EXPECT_TRUE(bent && straight);
 }
 
 // Beside a hole, further away than the wide level's control points reach and nearer than the broad level's do. A block
@@ -116,7 +153,7 @@ TEST(SmoothLevel, WhatWasPreparedIsWhatWouldHaveBeenComputed) {
   for (int i = 0; i < 60; ++i) {
     const double px = x(random), py = y(random), next = t + 0.001;
     ASSERT_TRUE(ahead.moveTo(window, mediaTime(t)));
-    ahead.prepare(window, mediaTime(next), px, py);
+    prepareAll(ahead, window, next, px, py);
     t = next + jitter(random);
     ASSERT_TRUE(ahead.moveTo(window, mediaTime(t)) && plain.moveTo(window, mediaTime(t)));
     ASSERT_NEAR(ahead.at(px, py).z, plain.at(px, py).z, 1e-4) << i;
