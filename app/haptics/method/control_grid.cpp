@@ -279,10 +279,12 @@ bool ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
   if (patch_.slots != 0 && std::max(std::abs(i0 - patch_.i), std::abs(j0 - patch_.j)) > kFarthest) return false;
   ahead_ = {};
   const std::uint64_t until = blocks_read_ + static_cast<std::uint64_t>(most);
-  for (int j = j0; j < j0 + 4; ++j) {
-    for (int i = i0; i < i0 + 4; ++i) {
+  const int rim = bend_ > 0 ? 1 : 0;
+  for (int j = j0 - rim; j < j0 + 4 + rim; ++j) {
+    const int beside = j < j0 || j >= j0 + 4 ? 0 : rim;  // the rim has no corners
+    for (int i = i0 - beside; i < i0 + 4 + beside; ++i) {
       if (blocks_read_ >= until) return false;
-      if (!isComplete(i, j, frames)) complete({i, j, i + 1, j + 1}, frames);
+      fill(i, j, frames);
     }
   }
   ahead_ = {i0, j0, frames.wanted};

@@ -89,8 +89,9 @@ class ControlGrid {
   // True if one of the frames with at least `least` of the weight has no straight point there. It reads the newest of
   // these frames, and asks for another one when that has lost its weight.
   [[nodiscard]] bool isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT;
-  // Reads points around a place, of frames that will get a weight soon; stops once it has read `most` blocks, or those
-  // of one point. Reads no points so far away that they would evict the last patch. True if all of them have been read.
+  // Reads blocks around a place, of frames that will get a weight soon; stops once it has read `most` of them, or one
+  // block of every frame. Reads none so far away that they would evict the last patch. True if all of them have been
+  // read.
   bool readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT;
   // The frames, one bit per slot, of which a whole patch or place has been read.
   [[nodiscard]] std::uint32_t slotsRead() const RELIEVO_RT { return slots_read_; }

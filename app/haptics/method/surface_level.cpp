@@ -274,7 +274,7 @@ void SurfaceLevel::readLacking(const FrameSlots& slots, const FrameMoment& momen
 }
 
 void SurfaceLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {
-  constexpr int kBlocksAtOnce = 2;
+  constexpr int kBlocksAtOnce = 3;
   const int frame = next.present + framesAhead(time_) + 1;
   if (frame > next.last) return;
   const std::uint8_t slot = slots.of_frame[static_cast<std::size_t>(frame)];
