@@ -228,7 +228,8 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const Frame& second = depth_first ? picture : depth;
   const int start = alignUp(whole - (whole - seam) / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;
-  if (half < 1) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
+  const bool empty = half < 1 || picture.width < 1 || picture.height < 1;
+  if (empty) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
   const auto cut = [&](const Frame& from, bool first) {
     if (beside) return crop(from, first ? 0 : start, 0, half, from.height);
     return crop(from, 0, first ? 0 : start, from.width, half);

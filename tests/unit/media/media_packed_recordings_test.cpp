@@ -314,5 +314,15 @@ TEST(Recordings, HalvesOfAGifAreFoundAlthoughItsGrayIsMixed) {
   }
 }
 
+TEST(Recordings, AGifOfAFewRowsOrColumnsIsAFilmWithoutDepth) {
+  TemporaryFolder folder;
+  for (const auto& [cols, rows] : {std::pair{200, 2}, {3, 40}}) {
+    std::ofstream(folder / "a.gif", std::ios::binary) << gifOf(cols, rows, test::photoOf);
+    const Seen seen = open({.url = folder / "a.gif"});
+    EXPECT_EQ(seen.failure, "") << cols;
+    EXPECT_EQ(seen.info.packing, Packing::Tracks) << cols;
+  }
+}
+
 }  // namespace
 }  // namespace relievo
