@@ -113,14 +113,15 @@ class RosbagSource final : public MediaSource {
     if (film.depth) {
       const Topic& depth = topics_[*film.depth];
       auto& tags = description.streams[*film.depth].tags;
-      const double unit = unitOf(bag_, depth).value_or(kUsualUnitMm);
       tags.insert(depth.kind.tags.begin(), depth.kind.tags.end());
       if (depth.kind.tags.empty()) {
+        const double unit = unitOf(bag_, depth).value_or(kUsualUnitMm);
         tags.insert({{"DEPTH_UNIT", std::to_string(unit)}, {"DEPTH_INVALID", "0+65535"}});
       }
-      const bool measures = tags.contains("DEPTH_UNIT");
-      const auto registration =
-          film.color && measures ? registrationOf(bag_, depth, topics_[*film.color], unit) : std::nullopt;
+      const auto unit = tags.find("DEPTH_UNIT");
+      const auto registration = film.color && unit != tags.end()
+                                    ? registrationOf(bag_, depth, topics_[*film.color], std::stod(unit->second))
+                                    : std::nullopt;
       if (registration) tags["DEPTH_REGISTRATION"] = *registration;
     }
     return description;

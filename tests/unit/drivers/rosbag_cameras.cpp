@@ -115,9 +115,9 @@ TEST_F(RosbagSource, RealSensesCamerasRegisterTheDepth) {
 // Both cameras hang on a base: the depth camera 100 mm to the right, the colour camera there and 30 mm lower, with a
 // quarter turn.
 TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
-  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame) {
+  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame, BagImage z = depthImage(0)) {
     BagWriter bag;
-    BagImage z = depthImage(0), picture = colorImage(0);
+    BagImage picture = colorImage(0);
     z.frame = "depth_optical";
     picture.frame = color_frame;
     bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, bagImage(z));
@@ -137,6 +137,14 @@ TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
   EXPECT_NEAR(read->rotation[3], -1, 1e-9);
   EXPECT_NEAR(read->translation_mm[0], -30, 1e-6);
   EXPECT_NEAR(read->translation_mm[1], 0, 1e-6);
+  EXPECT_EQ(read->unit_mm, 1);
+  BagImage metres = depthImage(0);
+  metres.encoding = "32FC1";
+  metres.step = sizeof(float) * kCols;
+  metres.data = std::string(sizeof(float) * kCols * kRows, '\0');
+  const auto of_metres = parseRegistration(tagsOf("plumb_bob", "color_optical", metres).at("DEPTH_REGISTRATION"));
+  ASSERT_TRUE(of_metres) << of_metres.error().message;
+  EXPECT_EQ(of_metres->unit_mm, 1000);
   EXPECT_FALSE(tagsOf("equidistant", "color_optical").contains("DEPTH_REGISTRATION")) << "another lens model";
   EXPECT_FALSE(tagsOf("plumb_bob", "elsewhere").contains("DEPTH_REGISTRATION"));
   EXPECT_FALSE(tagsOf("plumb_bob", "depth_optical").contains("DEPTH_REGISTRATION")) << "in the colour's view already";
