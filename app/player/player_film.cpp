@@ -8,6 +8,13 @@
 #include "platform/log.h"
 
 namespace relievo {
+namespace {
+
+constexpr Error kNotAllowed{
+    ErrorCode::Unsupported, 0,
+    "not allowed in a playlist; allowed are http, https, rtsp, rtp, udp, tcp and, in a local file, paths"};
+
+}  // namespace
 
 void Player::carryOut(const Deed& deed, MonotonicTime now) {
   switch (deed.kind) {
@@ -73,6 +80,7 @@ void Player::followReader(MonotonicTime now) {
 }
 
 void Player::followOpening(MonotonicTime now) {
+  if (programme_.film().refused) return failFilm(programme_.film().url, kNotAllowed);
   switch (film_.opening()) {
     case FilmPlayback::Opening::Waits:
       return film_.noteWait(now);

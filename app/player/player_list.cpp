@@ -34,12 +34,7 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   programme_.choose(film, way);
   const PlaylistEntry& entry = programme_.film();
   journal_.filmAsked(entry.url);
-  if (entry.refused) {
-    return failFilm(
-        entry.url,
-        {ErrorCode::Unsupported, 0,
-         "not allowed in a playlist; allowed are http, https, rtsp, rtp, udp, tcp and, in a local file, paths"});
-  }
+  if (entry.refused) return;  // followOpening fails it like a film that cannot be opened
   SourceOptions source = config_.source;
   source.url = entry.url;
   source.depth_url = entry.depth_url;

@@ -245,6 +245,19 @@ TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens
   EXPECT_EQ(open["has_depth"], true);
 }
 
+TEST_F(PlayerAndPrograms, AFilmThatAListMayNotNameIsPassedOver) {
+  bench_.config.source.url = "list.m3u";
+  bench_.config.stays = true;
+  bench_.texts["list.m3u"] = "film\nconcat:a|b\nother\n";
+  bench_.sources["./film"] = PlayerBench::film(250);
+  bench_.sources["./other"] = PlayerBench::film(50);
+  at(1, "next");
+  at(2, "quit");
+  play();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./film", "concat:a|b", "./other"));
+  EXPECT_GT(bench_.report.frames_shown, 40U);
+}
+
 TEST_F(PlayerAndPrograms, NonsenseIsAnsweredAndDoesNoHarm) {
   at(1, "dance");
   play({"", std::string(5000, 'x')});

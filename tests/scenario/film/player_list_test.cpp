@@ -261,6 +261,14 @@ TEST_F(PlayerLists, WhatAListMayNotNameIsPassedOver) {
   EXPECT_EQ(bench_.faults("concat:a|b: not allowed in a playlist"), 1u);
 }
 
+TEST_F(PlayerLists, AllThatAListMayNotNameIsPassedOver) {
+  aList();
+  bench_.texts["list.m3u"] = "#EXTM3U\na\nconcat:a|b\nconcat:b|c\nb\n";
+  playsAllBut("concat:a|b");
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "concat:a|b", "concat:b|c", "./b"));
+  EXPECT_EQ(bench_.report.frames_shown, 75u);
+}
+
 TEST_F(PlayerLists, APlayerThatStaysWaitsForTheNextFilm) {
   bench_.config.stays = true;
   bench_.config.duration = std::chrono::seconds(20);
