@@ -3,8 +3,8 @@
 
     blender -b scene.blend -P relievo_depth.py -- FOLDER [MM_PER_UNIT]
 
-FOLDER gets color-0001.png, depth-0001.png, .. for every frame of the scene. MM_PER_UNIT is the size of one
-unit of the scene in mm, by default 1000 (metres). Depth is measured along the camera's axis; 0 marks the sky and everything
+FOLDER gets color-0001.png, depth-0001.png, .. for the frames that the scene renders, counted from 1. MM_PER_UNIT is the size of
+one unit of the scene in mm, by default 1000 (metres). Depth is measured along the camera's axis; 0 marks the sky and everything
 beyond 65 m. At the end the script prints the relievo-author command for the film. For Blender 3 and 4.
 """
 import os
@@ -51,14 +51,14 @@ def set_up(scene, folder, mm_per_unit):
     tree.nodes.clear()
     layers = tree.nodes.new("CompositorNodeRLayers")
 
-    color = file_output(tree, folder, "color-####", "RGB", "8")
+    color = file_output(tree, folder, "rendered-color-####", "RGB", "8")
     tree.links.new(layers.outputs["Image"], color.inputs[0])
 
     # Code = distance in mm, scaled to 16 bits; distances beyond the range become 0.
     scaled = add(tree, "CompositorNodeMath", "MULTIPLY", mm_per_unit / LARGEST_CODE)
     near_enough = add(tree, "CompositorNodeMath", "LESS_THAN", 1.0)
     code = add(tree, "CompositorNodeMath", "MULTIPLY")
-    depth = file_output(tree, folder, "depth-####", "BW", "16")
+    depth = file_output(tree, folder, "rendered-depth-####", "BW", "16")
     # Raw data: no view transform, no gamma.
     if hasattr(depth, "save_as_render"):
         depth.save_as_render = False
@@ -80,12 +80,14 @@ def main():
     near, far = camera.clip_start * mm_per_unit, min(camera.clip_end * mm_per_unit, LARGEST_CODE)
     set_up(scene, folder, mm_per_unit)
     # Frame by frame, because rendering an animation would also write the scene's own output.
-    for frame in range(scene.frame_start, scene.frame_end + 1, scene.frame_step):
+    for number, frame in enumerate(range(scene.frame_start, scene.frame_end + 1, scene.frame_step), 1):
         scene.frame_set(frame)
         bpy.ops.render.render()
-    rate = scene.render.fps / scene.render.fps_base
+        for name in ("color", "depth"):  # Blender's names have the frame's number, and relievo-author takes no gaps
+            os.replace(f"{folder}/rendered-{name}-{frame:04d}.png", f"{folder}/{name}-{number:04d}.png")
+    rate = scene.render.fps / scene.render.fps_base / scene.frame_step
     print(f"relievo-author --color {folder}/color-%04d.png --depth {folder}/depth-%04d.png --fps {rate:g} "
-          f"--calibration unit=1,invalid=0,near={near:.0f},far={far:.0f} -o film.mkv")
+          f"--calibration unit=1,invalid=0,near={near:g},far={far:g} -o film.mkv")
 
 
 main()
