@@ -139,7 +139,10 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     if (auto rehearsed = renderer_->rehearse(surface, *rehearsal_.stop); !rehearsed) return rehearsed;
     words_.forget();
   }
-  drawSubtitles(renewed);
+  layOutSubtitles();
+  if (std::exchange(subtitles_changed_, false) || renewed) {
+    renderer_->setSubtitles(textFrame(), subtitles_.pictures());
+  }
   renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   const TextFrame frame = textFrame();
@@ -153,15 +156,14 @@ bool Picture::subtitlesChange(MediaTime place) {
   constexpr Duration kStep = std::chrono::milliseconds(33);  // drawing text costs time, even if nothing has changed
   if (renderer_ == nullptr || place < due_.place + kStep) return false;
   due_.place = place;
-  return drawSubtitles(false);
+  layOutSubtitles();
+  return subtitles_changed_;
 }
 
-bool Picture::drawSubtitles(bool renewed) {
+void Picture::layOutSubtitles() {
   const TextFrame frame = textFrame();
   const SubtitleRoom room{.none = !text_.keys.empty(), .down = roomForWords(text_, frame.aspect)};
-  const bool changed = subtitles_.draw(frame, due_.place, room) || renewed;
-  if (changed) renderer_->setSubtitles(frame, subtitles_.pictures());
-  return changed;
+  subtitles_changed_ |= subtitles_.draw(frame, due_.place, room);
 }
 
 Result<void> Picture::captureFrom(const DisplaySurface& surface, const FingerMarks& fingers) {

@@ -119,7 +119,7 @@ class Picture {
   void lose(MonotonicTime now) noexcept;
   [[nodiscard]] Result<void> drawAndPresent(const FingerMarks& fingers);
   [[nodiscard]] Result<void> draw(const DisplaySurface& surface, const FingerMarks& fingers);
-  bool drawSubtitles(bool renewed);
+  void layOutSubtitles();
   [[nodiscard]] Result<void> captureFrom(const DisplaySurface& surface, const FingerMarks& fingers);
   [[nodiscard]] bool isBound() noexcept;
   void followSignal(const DisplaySurface& surface) noexcept;
@@ -149,6 +149,7 @@ class Picture {
   ScreenWords words_;
   SubtitleWords subtitles_;
   ReliefAhead ahead_;
+  bool subtitles_changed_ = false;  // since the renderer was given them
   bool cut_ = false, capture_due_ = false;
   struct Rehearsal {
     bool due = false;  // before the first picture of a film
