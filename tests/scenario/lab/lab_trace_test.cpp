@@ -185,7 +185,7 @@ TEST_F(LabTrace, InterpolationTakesFifteenDecibelsOffTheTremorAtTheFrameRate) {
   constexpr int kFps = 15;
   // A face-like bulge that nods by 3 mm at 0.71 Hz and sways a little.
   constexpr int kMeasuredS = 40;
-  makeFilm(180, 122, kFps, (kMeasuredS + 2) * kFps, [](double x, double y, double t) {
+  makeFilm(90, 61, kFps, (kMeasuredS + 2) * kFps, [](double x, double y, double t) {
     const double sway = 2 * std::sin(2 * std::numbers::pi * 0.53 * t);
     const double r2 = (x - sway) * (x - sway) + y * y;
     return 8 + 20 * std::exp(-r2 / (2 * 30 * 30)) + (y / 30) * 3 * std::sin(2 * std::numbers::pi * 0.71 * t);
