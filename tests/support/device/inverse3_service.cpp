@@ -46,6 +46,13 @@ const char* word(bool yes) {
   return yes ? "true" : "false";
 }
 
+// The value of a name, without a copy; an empty object if it is not there.
+const json& valueOf(const json& object, const char* name) {
+  static const json none = json::object();
+  const auto found = object.find(name);
+  return found == object.end() ? none : *found;
+}
+
 }  // namespace
 
 std::string serverFrame(unsigned kind, std::string_view payload, bool final) {
@@ -174,14 +181,13 @@ void Inverse3Service::command(const std::string& text, MonotonicTime now) {
     error_ = "no JSON: " + text;
     return;
   }
-  const json none = json::object();
   if (message.contains("session")) profile_ = message["session"]["configure"]["profile"].value("name", "");
-  for (const json& arm : message.value("inverse3", json::array())) {
+  for (const json& arm : valueOf(message, "inverse3")) {
     if (arm.value("device_id", "") != kId) error_ = "another device: " + text;
-    const std::string preset = arm.value("configure", none).value("preset", none).value("preset", "");
+    const std::string preset = valueOf(valueOf(arm, "configure"), "preset").value("preset", "");
     centred_ = centred_ || (version_ == Version::V3_5 && preset == "arm_front_centered");
-    const json force = arm.value("commands", none).value("set_cursor_force", none);
-    const json vector = force.value(version_ == Version::V3_5 ? "vector" : "values", none);
+    const json& force = valueOf(valueOf(arm, "commands"), "set_cursor_force");
+    const json& vector = valueOf(force, version_ == Version::V3_5 ? "vector" : "values");
     if (!force.empty() && vector.empty()) error_ = "a force in another version's words: " + text;
     if (!vector.empty()) {
       setForce({vector.at("x").get<double>(), vector.at("z").get<double>(), -vector.at("y").get<double>()}, now);
