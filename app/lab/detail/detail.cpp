@@ -29,7 +29,7 @@ struct Plan {
 
   static Plan of(bool quick) {
     if (!quick) return {};
-    return {.pictures = 1, .rounds = 2, .touch_s = 0.8};
+    return {.pictures = 1, .rounds = 1, .touch_s = 0.8};
   }
 };
 

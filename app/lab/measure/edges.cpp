@@ -168,7 +168,7 @@ ChartWords wordsOf(const std::vector<Figures>& all) {
 }  // namespace
 
 Outcome<std::vector<ChartWords>> measureEdges(const MeasureOptions& options) {
-  constexpr int kPlaces = 40;
+  const int places = options.quick ? 16 : 40;
   std::vector<Figures> all;
   for (const double speed : {0.0, 50.0, -50.0}) {
     const auto surface =
@@ -183,7 +183,7 @@ Outcome<std::vector<ChartWords>> measureEdges(const MeasureOptions& options) {
         figures.push_back({.method = method, .depth = &depth, .edge_mm_per_s = speed});
       }
       const FilmViews views(*film);
-      inParallel(figures.size(), [&](std::size_t i) { measure(*surface, views, kPlaces, figures[i]); });
+      inParallel(figures.size(), [&](std::size_t i) { measure(*surface, views, places, figures[i]); });
       all.insert(all.end(), figures.begin(), figures.end());
     }
   }

@@ -16,7 +16,7 @@ namespace relievo {
 //   lost half of its force; negative before the edge. Root mean square, earliest and latest.
 //   `worst`: the larger of these two.
 // - `held`: places at which half of the force was still there 8 mm beyond the edge; they count as 8 mm.
-// The finger's speeds are relative to the edge. A quick run is the same: it takes seconds.
+// The finger's speeds are relative to the edge. A quick run uses fewer places.
 [[nodiscard]] Outcome<std::vector<ChartWords>> measureEdges(const MeasureOptions& options);
 
 }  // namespace relievo

@@ -23,7 +23,6 @@ namespace relievo {
 namespace {
 
 constexpr const char* kScene = "face-nodding";
-constexpr double kSegmentS = 4;
 constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements are sidebands of the frame rate
 constexpr Duration kExpectedLate = std::chrono::milliseconds(12);  // of CameraDelay{}
 constexpr std::array kRates{15, 30, 60};
@@ -94,7 +93,8 @@ void addSegment(const TrueSurface& face, const MemoryFilm& film, const HoldPlan&
 
 class Latency {
  public:
-  explicit Latency(const MeasureOptions& options) : options_(options), segments_(options.quick ? 1 : 5) {}
+  explicit Latency(const MeasureOptions& options)
+      : options_(options), segments_(options.quick ? 1 : 5), segment_s_(options.quick ? 2 : 4) {}
 
   Outcome<std::vector<ChartWords>> run() {
     const auto face = makeTrueSurface(kScene);
@@ -112,15 +112,15 @@ class Latency {
     const std::size_t first = cells_.size();
     for (SurfaceKind& kind : surfacesAt(rate)) {
       auto spectrum =
-          Spectrum::make(static_cast<std::size_t>(kSegmentS / FingerPathOptions::kTickS), FingerPathOptions::kTickS);
+          Spectrum::make(static_cast<std::size_t>(segment_s_ / FingerPathOptions::kTickS), FingerPathOptions::kTickS);
       if (!spectrum) return failOn("latency", spectrum.error());
       cells_.push_back({rate, &depth, std::move(kind), std::move(*spectrum), {}, {}, {}});
     }
     for (int s = 0; s < segments_; ++s) {
       options_.tell(print("%d frames/s, %s, film %d of %d", rate, depth.name, s + 1, segments_));
-      const HoldPlan plan{.from_s = s * kSegmentS, .measured_s = kSegmentS};
+      const HoldPlan plan{.from_s = s * segment_s_, .measured_s = segment_s_};
       const auto film = MemoryFilm::make(face, {.depth = depth, .frames_per_s = static_cast<double>(rate)}, plan.from_s,
-                                         plan.from_s + HoldPlan::kSettleS + kSegmentS);
+                                         plan.from_s + HoldPlan::kSettleS + segment_s_);
       if (!film) return failOn(kScene, film.error());
       inParallel(cells_.size() - first, [&](std::size_t i) { addSegment(face, *film, plan, cells_[first + i]); });
     }
@@ -163,6 +163,7 @@ class Latency {
 
   const MeasureOptions& options_;
   int segments_;
+  double segment_s_;
   std::vector<Curve> cells_;
 };
 

@@ -78,7 +78,7 @@ struct Curve {
 
 class Smoothness {
  public:
-  explicit Smoothness(const MeasureOptions& options) : options_(options), segments_(options.quick ? 2 : 10) {}
+  explicit Smoothness(const MeasureOptions& options) : options_(options), segments_(options.quick ? 1 : 10) {}
 
   Outcome<std::vector<ChartWords>> run() {
     const auto face = makeTrueSurface(kScene);
@@ -186,8 +186,9 @@ class Smoothness {
       reading +=
           print("%s%s %.0f dB (%d)", reading.empty() ? "" : ", ", method, underHoldDb(curve), curve.look_ahead_frames);
     }
-    return {print("Force spectrum on a nodding face, %s, %d segments of 10 s",
-                  hold == FingerHold::FixedPoint ? "finger held at a point" : "a resting hand", segments_),
+    return {print("Force spectrum on a nodding face, %s, %d s",
+                  hold == FingerHold::FixedPoint ? "finger held at a point" : "a resting hand",
+                  static_cast<int>(segments_ * kSegmentS)),
             "15 frames/s, 8 bits. How far each method's peak at the frame rate lies below that of holding the frame, "
             "with its frames of look-ahead: " +
                 reading +

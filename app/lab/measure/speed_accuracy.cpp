@@ -25,8 +25,8 @@ struct Plan {
             .duration_s = 1.5,
             .speeds_m_per_s = {kSlowMPerS, 1},
             .sizes = {{720, 486}},
-            .rounds = 10,
-            .cold_ticks = 100};
+            .rounds = 3,
+            .cold_ticks = 20};
   }
 };
 

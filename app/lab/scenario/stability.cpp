@@ -22,7 +22,8 @@ constexpr std::array kMethods{"relievo",     "god-object", "god-object-smoothed"
                               "proxy-blend", "penalty"};
 
 constexpr double kUsualHz = 1000;
-constexpr int kUsualDelay = 1;  // ticks
+constexpr int kUsualDelay = 1;          // ticks
+constexpr double kQuickBelowHz = 4000;  // loops of a quick run
 
 struct Onset {
   const char* method;
@@ -59,7 +60,9 @@ void addLoops(std::vector<Onset>& onsets, int delay_ticks, double rate_hz) {
 std::vector<Onset> findOnsets(const MeasureOptions& options) {
   std::vector<Onset> onsets;
   for (int delay = 0; delay <= 3; ++delay) addLoops(onsets, delay, kUsualHz);
-  for (const double rate_hz : {500.0, 2000.0, 4000.0, 8000.0}) addLoops(onsets, kUsualDelay, rate_hz);
+  for (const double rate_hz : {500.0, 2000.0, 4000.0, 8000.0}) {
+    if (!options.quick || rate_hz < kQuickBelowHz) addLoops(onsets, kUsualDelay, rate_hz);
+  }
   const auto find = [&](std::size_t i) {
     Onset& o = onsets[i];
     o.found = loopOnset(challengerNamed(o.method), o.loop, o.highestTried());
