@@ -67,20 +67,30 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
     pieces_.push_back({from, along, {along.y * per, along.u * per, along.v * per}});
   }
   per_piece_ = 1 / static_cast<float>(pieces_.size());
-  constexpr float kStep = 1.0F / kSide;
+  constexpr Four kBegin{}, kEnd{1, 1, 1, 1};
+  // The number of the piece nearest to each of four colours that differ in v; as placeOn.
+  const auto nearestPieces = [&](float y, float u, const Four& v) {
+    Four least = kBegin + std::numeric_limits<float>::infinity(), nearest{};
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const auto& [from, along, per] = pieces_[k];
+      const float off_y = y - from.y, off_u = u - from.u;
+      const Four off_v = v - from.v, t = off_y * per.y + off_u * per.u + off_v * per.v;
+      const Four on = t < kBegin ? kBegin : t > kEnd ? kEnd : t;
+      const Four left_y = off_y - on * along.y, left_u = off_u - on * along.u, left_v = off_v - on * along.v;
+      const Four distance2 = left_y * left_y + left_u * left_u + left_v * left_v;
+      nearest = distance2 < least ? kBegin + static_cast<float>(k) : nearest;
+      least = distance2 < least ? distance2 : least;
+    }
+    return nearest;
+  };
+  constexpr auto middleOf = [](int place) { return (static_cast<float>(place) + 0.5F) / kSide; };
   std::size_t cell = 0;
   for (int y = 0; y < kSide; ++y) {
     for (int u = 0; u < kSide; ++u) {
-      for (int v = 0; v < kSide; ++v, ++cell) {
-        const YuvColor middle{(static_cast<float>(y) + 0.5F) * kStep, (static_cast<float>(u) + 0.5F) * kStep - 0.5F,
-                              (static_cast<float>(v) + 0.5F) * kStep - 0.5F};
-        float least = std::numeric_limits<float>::infinity();
-        for (std::size_t k = 0; k < pieces_.size(); ++k) {
-          const float distance = placeOn(pieces_[k], middle).distance;
-          if (distance >= least) continue;
-          least = distance;
-          nearest_piece_[cell] = static_cast<std::uint8_t>(k);
-        }
+      for (int v = 0; v < kSide; v += 4) {
+        const Four four{middleOf(v), middleOf(v + 1), middleOf(v + 2), middleOf(v + 3)};
+        const Four pieces = nearestPieces(middleOf(y), middleOf(u) - 0.5F, four - 0.5F);
+        for (int i = 0; i < 4; ++i) nearest_piece_[cell++] = static_cast<std::uint8_t>(pieces[i]);
       }
     }
   }
