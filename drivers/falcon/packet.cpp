@@ -88,14 +88,8 @@ void PacketStream::drop(std::size_t count) RELIEVO_RT {
 }
 
 void PacketStream::add(std::span<const std::uint8_t> bytes) RELIEVO_RT {
-  if (bytes.size() > bytes_.size()) {
-    discarded_ += bytes.size() - bytes_.size();
-    bytes = bytes.last(bytes_.size());
-  }
-  if (const std::size_t wanted = size_ + bytes.size(); wanted > bytes_.size()) {
-    discarded_ += wanted - bytes_.size();
-    drop(wanted - bytes_.size());
-  }
+  bytes = bytes.last(std::min(bytes.size(), bytes_.size()));
+  if (const std::size_t wanted = size_ + bytes.size(); wanted > bytes_.size()) drop(wanted - bytes_.size());
   std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
   size_ += bytes.size();
 }
@@ -112,7 +106,6 @@ std::optional<Packet> PacketStream::next() RELIEVO_RT {
     found = candidate;
     break;
   }
-  discarded_ += from;
   drop(from + (found ? kPacketBytes : 0));
   return found;
 }

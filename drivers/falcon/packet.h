@@ -50,13 +50,11 @@ class PacketStream {
   // The next whole packet that is a valid reply; nullopt if more bytes are needed.
   [[nodiscard]] std::optional<Packet> next() RELIEVO_RT;
   void clear() RELIEVO_RT { size_ = 0; }
-  [[nodiscard]] std::uint64_t discarded() const RELIEVO_RT { return discarded_; }
 
  private:
   void drop(std::size_t count) RELIEVO_RT;
   std::array<std::uint8_t, 8 * kPacketBytes> bytes_{};
   std::size_t size_ = 0;
-  std::uint64_t discarded_ = 0;  // bytes that belonged to no packet
 };
 
 }  // namespace relievo::falcon

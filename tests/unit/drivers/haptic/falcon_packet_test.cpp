@@ -87,7 +87,6 @@ TEST(FalconStream, FindsTheFirstWholePacketAfterAnyFault) {
     const auto found = stream.next();
     ASSERT_TRUE(found) << cut;
     EXPECT_EQ(*found, packet);
-    EXPECT_EQ(stream.discarded(), cut);
     EXPECT_FALSE(stream.next());
   }
 }
@@ -103,7 +102,6 @@ TEST(FalconStream, TakesPacketsHoweverTheyAreSplit) {
     }
   }
   EXPECT_EQ(found, 100);
-  EXPECT_EQ(stream.discarded(), 0U);
 }
 
 TEST(FalconStream, MoreThanItHoldsCostsTheOldest) {
