@@ -86,6 +86,7 @@ ControlSocket::~ControlSocket() {
 }
 
 void ControlSocket::attend(std::string_view refusal) {
+  ++round_;
   std::array<pollfd, kMostClients + 1> polled{};
   polled[0] = {.fd = fd_.get(), .events = POLLIN};
   for (std::size_t i = 0; i < clients_.size(); ++i) {
@@ -109,8 +110,8 @@ void ControlSocket::accept(std::string_view refusal) {
   for (std::size_t waiting = 0; waiting < kMostClients; ++waiting) {
     UniqueFd fd(::accept4(fd_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!fd.valid()) return;
-    Client client{.id = last_id_ + 1, .fd = std::move(fd)};
-    if (clients_.size() == kMostClients) {
+    Client client{.id = last_id_ + 1, .fd = std::move(fd), .heard = round_};
+    if (!makeRoom(refusal)) {
       put(client, refusal);
       continue;
     }
@@ -119,9 +120,19 @@ void ControlSocket::accept(std::string_view refusal) {
   }
 }
 
-void ControlSocket::receive(Client& client) {
+bool ControlSocket::makeRoom(std::string_view refusal) {
+  if (clients_.size() < kMostClients) return true;
+  const auto silent = std::ranges::min_element(clients_, {}, &Client::heard);
+  if (silent->heard == round_) return false;
+  put(*silent, refusal);
+  clients_.erase(silent);
+  return true;
+}
+
+void ControlSocket::receive(Client& client) const {
   std::array<char, kMostLine + 1> bytes;
   const ssize_t got = ::recv(client.fd.get(), bytes.data(), bytes.size() - client.in.size(), 0);
+  if (got > 0) client.heard = round_;
   if (got > 0) client.in.append(bytes.data(), static_cast<std::size_t>(got));
   else if (got == 0) client.ended = true;
   else if (errno != EAGAIN && errno != EINTR) client.gone = true;

@@ -40,8 +40,9 @@ class ControlSocket {
     bool too_long = false;  // its text is lost
   };
 
-  // Accepts and drops clients, receives at most one line's bytes from each, and sends queued bytes. A client beyond
-  // kMostClients gets `refusal` and is disconnected.
+  // Accepts and drops clients, receives at most one line's bytes from each, and sends queued bytes. For a client beyond
+  // kMostClients, the one that has been silent longest gets `refusal` and is disconnected; if all have just spoken, the
+  // new one.
   void attend(std::string_view refusal);
   // The next whole line; clients take turns.
   [[nodiscard]] std::optional<Line> next();
@@ -57,10 +58,12 @@ class ControlSocket {
     bool skipping = false;  // skips the rest of a line that is too long
     bool ended = false;     // it sends no more
     bool gone = false;
+    std::uint64_t heard = 0;  // the round in which it connected or last sent something
   };
   ControlSocket(UniqueFd fd, std::string path, dev_t device, ino_t inode);
   void accept(std::string_view refusal);
-  static void receive(Client& client);
+  [[nodiscard]] bool makeRoom(std::string_view refusal);
+  void receive(Client& client) const;
   static void put(Client& client, std::string_view line);
   static void flush(Client& client);
   [[nodiscard]] static std::optional<Line> takeLine(Client& client);
@@ -70,6 +73,7 @@ class ControlSocket {
   const dev_t device_;  // of the path, so that another program's socket is left alone
   const ino_t inode_;
   ClientId last_id_ = 0;
+  std::uint64_t round_ = 0;
   std::size_t turn_ = 0;
   std::vector<Client> clients_;
 };

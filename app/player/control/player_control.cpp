@@ -18,7 +18,8 @@ void PlayerControl::attend(Player& player, MonotonicTime now) {
   service_.wentRound(now);
   if (std::exchange(status_changed_, false)) tellStatus(player);
   if (socket_ == nullptr) return;
-  static const std::string kRefusal = errorLine("", "8 programs are connected already; disconnect one first");
+  static const std::string kRefusal =
+      errorLine("", "8 other programs are connected; connect again, and disconnect when done");
   socket_->attend(kRefusal);
   for (int i = 0; i < kLinesARound; ++i) {
     const auto line = socket_->next();

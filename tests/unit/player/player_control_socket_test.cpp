@@ -140,26 +140,39 @@ TEST_F(ControlSocketTest, ALineThatIsTooLongIsOneFaultAndNoMore) {
   EXPECT_THAT(after, testing::ElementsAre("next"));
 }
 
-TEST_F(ControlSocketTest, LetsEightInAndTellsTheNinth) {
+TEST_F(ControlSocketTest, ANinthTakesThePlaceOfTheOneThatWasSilentLongest) {
   std::vector<std::unique_ptr<ControlClient>> clients;
   for (std::size_t i = 0; i < ControlSocket::kMostClients; ++i) {
     clients.push_back(std::make_unique<ControlClient>(path()));
     socket_->attend("full");
   }
-  ControlClient ninth(path());
+  clients[0]->sendBytes("one\n");
+  EXPECT_THAT(lines(), testing::ElementsAre("one"));
+  clients.push_back(std::make_unique<ControlClient>(path()));
+  clients.back()->sendBytes("nine\n");
   socket_->attend("\"full\"");
-  EXPECT_EQ(ninth.next(std::chrono::seconds(5)), "full");
-  EXPECT_TRUE(ninth.isLetGo());
+  EXPECT_THAT(lines(), testing::ElementsAre("nine"));
+  EXPECT_EQ(clients[1]->next(std::chrono::seconds(5)), "full");
+  EXPECT_TRUE(clients[1]->isLetGo());
+  clients.erase(clients.begin() + 1);
   socket_->sendToAll("\"hello\"");
   for (auto& client : clients) EXPECT_EQ(client->next(std::chrono::seconds(5)), "hello");
+}
 
-  clients.pop_back();
+TEST_F(ControlSocketTest, OfManyThatComeAtOnceEightAreLetInAndTheOthersAreTold) {
+  std::array<ControlClient, 8> idle{ControlClient(path()), ControlClient(path()), ControlClient(path()),
+                                    ControlClient(path()), ControlClient(path()), ControlClient(path()),
+                                    ControlClient(path()), ControlClient(path())};
   socket_->attend("full");
-  socket_->attend("full");
-  ControlClient late(path());
-  socket_->attend("full");
-  socket_->sendToAll("\"again\"");
-  EXPECT_EQ(late.next(std::chrono::seconds(5)), "again");
+  idle[7].sendBytes("x\n");
+  std::vector<std::unique_ptr<ControlClient>> crowd;
+  for (int i = 0; i < 8; ++i) crowd.push_back(std::make_unique<ControlClient>(path()));
+  socket_->attend("\"full\"");
+  EXPECT_EQ(socket_->next().value().text, "x") << "what has just been asked is answered";
+  socket_->sendToAll("\"hello\"");
+  for (int i = 0; i < 7; ++i) EXPECT_EQ(crowd[i]->next(std::chrono::seconds(5)), "hello");
+  EXPECT_EQ(crowd[7]->next(std::chrono::seconds(5)), "full");
+  EXPECT_EQ(idle[7].next(std::chrono::seconds(5)), "hello");
 }
 
 // A round without a film takes 20 ms.
