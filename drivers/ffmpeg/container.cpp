@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -105,6 +106,19 @@ int rotationOf(const AVStream& stream) noexcept {
   return 0;
 }
 
+// The chosen programme's; nullopt if its pictures and sound have no times yet.
+std::optional<Duration> startOfProgramme(const AVFormatContext& context) noexcept {
+  std::optional<Duration> start;
+  for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
+    const StreamKind kind = kindOf(*stream);
+    const bool plays = kind == StreamKind::Video || kind == StreamKind::Audio;
+    if (!plays || stream->start_time == AV_NOPTS_VALUE) continue;
+    const Duration own = durationFrom(stream->start_time, stream->time_base);
+    start = std::min(start.value_or(own), own);
+  }
+  return start;
+}
+
 // Picture size, then bit rate, of a programme's best video.
 std::pair<std::int64_t, std::int64_t> worthOf(const AVFormatContext& context, const AVProgram& programme) noexcept {
   std::int64_t area = 0;
@@ -189,6 +203,7 @@ bool isTimed(const AVFormatContext& context) noexcept {
 }
 
 Duration startOf(const AVFormatContext& context) noexcept {
+  if (const auto start = startOfProgramme(context); start && context.nb_programs > 1) return *start;
   if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
   const Duration start = durationFrom(context.start_time, kMicrosecond);
   for (unsigned i = 0; i < context.nb_streams; ++i) {

@@ -37,7 +37,8 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 [[nodiscard]] bool isTimed(const AVFormatContext& context) noexcept;
 
 // The start time of the stream that begins first. It is more exact than FFmpeg's start of the container, which is in
-// microseconds, so that the first picture's time becomes exactly 0.
+// microseconds, so that the first picture's time becomes exactly 0. Of several programmes only the chosen one counts:
+// each has its own clock.
 [[nodiscard]] Duration startOf(const AVFormatContext& context) noexcept;
 
 // How long the film is, by the container; 0 if unknown. Matroska and QuickTime may count from time 0, FLV counts from

@@ -61,10 +61,10 @@ class FfmpegSource final : public MediaSource {
     AVFormatContext& context = *opened->container;
     arrival_ = opened->arrival;
     timed_ = isTimed(context);
+    chooseProgramme(context);
     start_ = startOf(context);
     end_.open(context, start_);
     sought_ = false;
-    chooseProgramme(context);
     leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
     earliest_stream_ = earliestStream(context, leading_stream_);
     context_ = std::move(opened->container);

@@ -2,6 +2,8 @@
 // The FFmpeg source: streams, times from zero, seeks.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
@@ -81,6 +83,27 @@ TEST(FfmpegSource, OfSeveralProgrammesTheBestIsTheFilm) {
   const auto packets = readAll(*source);
   EXPECT_EQ(packets.size(), 48u);
   for (const Packet& packet : packets) EXPECT_EQ(packet.stream, film);
+}
+
+TEST(FfmpegSource, OfSeveralProgrammesTheFilmBeginsByItsOwnClock) {
+  if (std::system("command -v ffmpeg >/dev/null") != 0) GTEST_SKIP() << "no ffmpeg program here";
+  TemporaryFolder folder;
+  for (const char* hour : {"-itsoffset 3600 ", ""}) {  // of the larger picture, or of the other one
+    const std::string other = *hour == 0 ? "-itsoffset 3600 " : "";
+    const std::string make = "ffmpeg -v error -y " + other + "-f lavfi -i testsrc=s=64x48:r=25:d=1 " + hour +
+                             "-f lavfi -i testsrc2=s=128x96:r=25:d=1 -map 0 -map 1 -c:v libx264 -bf 0"
+                             " -program program_num=1:st=0 -program program_num=2:st=1 " +
+                             folder / "two.ts";
+    ASSERT_EQ(std::system(make.c_str()), 0);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(folder / "two.ts").has_value());
+    EXPECT_NEAR(toSeconds(source->duration()), 1, 0.05);
+    const auto packets = readAll(*source);
+    ASSERT_EQ(packets.size(), 25u) << other;
+    EXPECT_EQ(packets.front().pts, MediaTime{}) << other;
+    ASSERT_TRUE(source->seek(MediaTime{}).has_value());
+    EXPECT_EQ(readAll(*source).front().pts, MediaTime{}) << other;
+  }
 }
 
 struct Container {
