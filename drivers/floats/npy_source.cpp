@@ -37,6 +37,7 @@ class NpySource final : public CountedSource {
  private:
   Result<Description> describe(const std::string&) override {
     const auto header = npy::parseHeader(beginningOf(file_, npy::kLongestHeader));
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (!header) {
       return fail(ErrorCode::Unsupported,
                   "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
@@ -62,7 +63,7 @@ class NpySource final : public CountedSource {
     auto data = std::make_shared<std::vector<std::uint8_t>>(header.begin(), header.end());
     data->resize(header.size() + bytes);
     const auto got = file_.read(header_.begin + next_ * bytes, std::span(*data).subspan(header.size()));
-    if (!got) return std::unexpected(got.error());
+    if (const auto failure = file_.failure()) return std::unexpected(*failure);
     if (*got < bytes) {
       cut_off_ = header_.pictures - next_;
       return std::nullopt;

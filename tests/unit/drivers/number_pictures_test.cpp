@@ -11,6 +11,7 @@
 #include "drivers/floats/floats.h"
 #include "drivers/registry.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/failing_disk.h"
 #include "tests/unit/drivers/decoded_film.h"
 
 namespace relievo {
@@ -267,6 +268,14 @@ TEST(Npy, AnArrayOfPicturesIsAFilm) {
   expectValues(film.frames[2], slope);
   EXPECT_EQ(film.frames[2].pts - film.frames[0].pts, 2 * (film.frames[1].pts - film.frames[0].pts));
   EXPECT_GT(film.frames[1].pts, film.frames[0].pts);
+}
+
+TEST(Npy, AFilmIsLostWhenTheDiskFails) {
+  const test::TemporaryFolder folder;
+  write(folder / "z.npy", npy("<f4", false, "4, 1000, 1000", std::string(16'000'000, 'a')));
+  const auto source = makeNpySource();
+  ASSERT_TRUE(source->open(folder / "z.npy").has_value());
+  EXPECT_EQ(test::endOnFailingDisk(*source), ErrorCode::Lost);
 }
 
 // A camera's organised cloud: x to the right, y down, z away from it; 0, 0, 0 for a hole. Its normals are no cloud.
