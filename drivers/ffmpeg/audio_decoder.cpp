@@ -26,7 +26,7 @@ struct ResamplerDeleter {
 
 class FfmpegAudioDecoder final : public AudioDecoder {
  public:
-  FfmpegAudioDecoder() noexcept { silenceLibrary(); }
+  FfmpegAudioDecoder() noexcept { prepareLibrary(); }
   [[nodiscard]] const char* name() const noexcept override { return "ffmpeg"; }
 
  private:

@@ -3,6 +3,7 @@
 #include "drivers/ffmpeg/library.h"
 
 #include <cerrno>
+#include <cstddef>
 
 #include "platform/unique_fd.h"
 
@@ -10,13 +11,20 @@ extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/log.h>
 #include <libavutil/mathematics.h>
+#include <libavutil/mem.h>
 }
 
 namespace relievo::ffmpeg {
+namespace {
 
-void silenceLibrary() noexcept {
+constexpr std::size_t kMostBlock = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
+
+}  // namespace
+
+void prepareLibrary() noexcept {
   static const bool done = [] {
     av_log_set_level(AV_LOG_QUIET);
+    av_max_alloc(kMostBlock);
     return true;
   }();
   static_cast<void>(done);

@@ -43,7 +43,7 @@ constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
 
 class FfmpegSource final : public MediaSource {
  public:
-  FfmpegSource() noexcept { silenceLibrary(); }
+  FfmpegSource() noexcept { prepareLibrary(); }
   ~FfmpegSource() override { close(); }
 
  private:

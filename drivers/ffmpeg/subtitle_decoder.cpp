@@ -66,7 +66,7 @@ SubtitlePicture pictureOf(const AVSubtitleRect& rect) {
 
 class FfmpegSubtitleDecoder final : public SubtitleDecoder {
  public:
-  FfmpegSubtitleDecoder() noexcept { silenceLibrary(); }
+  FfmpegSubtitleDecoder() noexcept { prepareLibrary(); }
 
   Result<void> open(const StreamInfo& stream) override {
     packet_.reset(av_packet_alloc());

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string_view>
 
 #include "drivers/ffmpeg/ffmpeg.h"
@@ -14,6 +15,10 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/ts_patch.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
+
+extern "C" {
+#include <libavutil/mem.h>
+}
 
 namespace relievo {
 namespace {
@@ -32,6 +37,15 @@ TEST(FfmpegSource, AFileIsAFileWhateverItsNameLooksLike) {
   const auto source = makeFfmpegSource();
   EXPECT_TRUE(source->open("rtsp:12:30.mkv").has_value());
   std::filesystem::current_path(before);
+}
+
+// The largest picture has 268 MB. A text in a PNG of 300 KB unpacked to 300 MB, in blocks of up to 512 MB.
+TEST(FfmpegSource, FFmpegAllocatesNoBlockThatNoPictureNeeds) {
+  const auto source = makeFfmpegSource();
+  const std::unique_ptr<void, decltype(&av_free)> picture(av_malloc(268'435'456), av_free);
+  const std::unique_ptr<void, decltype(&av_free)> more(av_malloc(301'000'000), av_free);
+  EXPECT_NE(picture, nullptr);
+  EXPECT_EQ(more, nullptr);
 }
 
 TEST(FfmpegSource, SaysWhatIsWrongWithWhatItCannotOpen) {
