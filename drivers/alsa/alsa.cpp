@@ -8,7 +8,10 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <memory>
 #include <utility>
+
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 constexpr unsigned kBufferUs = 500'000;
 constexpr unsigned kPeriodUs = 20'000;
 constexpr std::size_t kConvertedAtOnce = 2048;  // samples
+constexpr Duration kServerPatience = std::chrono::seconds(3);
 
 // Keeps alsa-lib from printing to stderr; the program prints its own messages.
 void printNothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*text*/,
@@ -38,6 +42,61 @@ Error openError(int code) noexcept {
   }
 }
 
+// What a helper thread opens; closed unless it is taken.
+struct OpenedCard {
+  explicit OpenedCard(const AudioFormat& wished) : format(wished) {}
+  ~OpenedCard() {
+    if (pcm != nullptr) snd_pcm_close(pcm);
+  }
+  OpenedCard(const OpenedCard&) = delete;
+  OpenedCard& operator=(const OpenedCard&) = delete;
+
+  void open(const std::string& device) {
+    refused = snd_pcm_open(&pcm, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
+    if (refused < 0) pcm = nullptr;
+    else unfit = configure();
+  }
+
+  int configure() {
+    snd_pcm_hw_params_t* hardware = nullptr;
+    snd_pcm_hw_params_alloca(&hardware);
+    if (const int code = snd_pcm_hw_params_any(pcm, hardware); code < 0) return code;
+    if (const int code = snd_pcm_hw_params_set_access(pcm, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
+      return code;
+    }
+    as_float = snd_pcm_hw_params_set_format(pcm, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
+    if (!as_float) {
+      if (const int code = snd_pcm_hw_params_set_format(pcm, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
+    }
+    auto channels = static_cast<unsigned>(format.channels);
+    auto rate = static_cast<unsigned>(format.rate_hz);
+    unsigned buffer_us = kBufferUs, period_us = kPeriodUs;
+    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm, hardware, &channels),
+                           snd_pcm_hw_params_set_rate_near(pcm, hardware, &rate, nullptr),
+                           snd_pcm_hw_params_set_buffer_time_near(pcm, hardware, &buffer_us, nullptr),
+                           snd_pcm_hw_params_set_period_time_near(pcm, hardware, &period_us, nullptr),
+                           snd_pcm_hw_params(pcm, hardware)}) {
+      if (code < 0) return code;
+    }
+    snd_pcm_uframes_t frames = 0;
+    if (const int code = snd_pcm_hw_params_get_buffer_size(hardware, &frames); code < 0) return code;
+    buffer = fromSeconds(static_cast<double>(frames) / rate);
+    format = {.rate_hz = static_cast<int>(rate), .channels = static_cast<int>(channels)};
+
+    snd_pcm_sw_params_t* software = nullptr;
+    snd_pcm_sw_params_alloca(&software);
+    if (const int code = snd_pcm_sw_params_current(pcm, software); code < 0) return code;
+    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm, software, 1); code < 0) return code;
+    return snd_pcm_sw_params(pcm, software);
+  }
+
+  AudioFormat format;
+  snd_pcm_t* pcm = nullptr;
+  int refused = 0, unfit = 0;  // ALSA's errors
+  bool as_float = true;
+  Duration buffer{0};
+};
+
 class AlsaOutput final : public AudioOutput {
  public:
   AlsaOutput(std::string device, const Clock& clock) : device_(std::move(device)), clock_(clock) {
@@ -51,50 +110,22 @@ class AlsaOutput final : public AudioOutput {
 
  private:
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    if (const int code = snd_pcm_open(&pcm_, device_.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK); code < 0) {
-      pcm_ = nullptr;
-      return std::unexpected(openError(code));
-    }
-    AudioFormat given = wished;
-    if (const int code = configure(given); code < 0) {
+    const auto card = std::make_shared<OpenedCard>(wished);
+    // A plug-in for a sound server waits for the server's answer, also in non-blocking mode.
+    const auto asked = server_.ask("/", [card, device = device_] { card->open(device); });
+    if (!asked && asked.error().code != ErrorCode::Timeout) return std::unexpected(asked.error());
+    if (!asked) return fail(ErrorCode::Timeout, "the sound server does not answer within 3 s; start it anew");
+    if (card->refused < 0) return std::unexpected(openError(card->refused));
+    if (card->unfit < 0) {
       return fail(ErrorCode::Unsupported,
-                  "the sound card takes neither float nor 16-bit samples; use a converting device, plughw:..", -code);
+                  "the sound card takes neither float nor 16-bit samples; use a converting device, plughw:..",
+                  -card->unfit);
     }
+    pcm_ = std::exchange(card->pcm, nullptr);
+    as_float_ = card->as_float;
+    buffer_ = card->buffer;
     written_ = 0;
-    return given;
-  }
-
-  int configure(AudioFormat& format) {
-    snd_pcm_hw_params_t* hardware = nullptr;
-    snd_pcm_hw_params_alloca(&hardware);
-    if (const int code = snd_pcm_hw_params_any(pcm_, hardware); code < 0) return code;
-    if (const int code = snd_pcm_hw_params_set_access(pcm_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
-      return code;
-    }
-    as_float_ = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
-    if (!as_float_) {
-      if (const int code = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
-    }
-    auto channels = static_cast<unsigned>(format.channels);
-    auto rate = static_cast<unsigned>(format.rate_hz);
-    unsigned buffer_us = kBufferUs, period_us = kPeriodUs;
-    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm_, hardware, &channels),
-                           snd_pcm_hw_params_set_rate_near(pcm_, hardware, &rate, nullptr),
-                           snd_pcm_hw_params_set_buffer_time_near(pcm_, hardware, &buffer_us, nullptr),
-                           snd_pcm_hw_params_set_period_time_near(pcm_, hardware, &period_us, nullptr),
-                           snd_pcm_hw_params(pcm_, hardware)}) {
-      if (code < 0) return code;
-    }
-    snd_pcm_uframes_t frames = 0;
-    if (const int code = snd_pcm_hw_params_get_buffer_size(hardware, &frames); code < 0) return code;
-    buffer_ = fromSeconds(static_cast<double>(frames) / rate);
-    format = {.rate_hz = static_cast<int>(rate), .channels = static_cast<int>(channels)};
-
-    snd_pcm_sw_params_t* software = nullptr;
-    snd_pcm_sw_params_alloca(&software);
-    if (const int code = snd_pcm_sw_params_current(pcm_, software); code < 0) return code;
-    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm_, software, 1); code < 0) return code;
-    return snd_pcm_sw_params(pcm_, software);
+    return card->format;
   }
 
   Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
@@ -163,6 +194,7 @@ class AlsaOutput final : public AudioOutput {
 
   const std::string device_;
   const Clock& clock_;
+  FileSystemAnswers server_{kServerPatience};
   snd_pcm_t* pcm_ = nullptr;
   bool as_float_ = true;
   Duration buffer_{0};

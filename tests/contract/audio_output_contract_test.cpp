@@ -2,6 +2,7 @@
 // Every sound output under the contract, and what is special to ALSA.
 #include <gtest/gtest.h>
 
+#include <thread>
 #include <vector>
 
 #include "drivers/alsa/alsa.h"
@@ -46,6 +47,24 @@ TEST(AlsaOutput, SaysWhatToDoAboutACardThatIsNotThere) {
   const auto opened = makeAlsaOutput("no such card", clock)->open({});
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+}
+
+TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
+  ManualClock clock;
+  const auto [audio, unplug] = makeFakeCard(clock, true);
+  test::sound_server_stalls = true;
+  for (int tries = 0; tries < 2; ++tries) {
+    const auto opened = audio->open({});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
+  }
+  test::sound_server_stalls = false;
+  bool opened = false;
+  for (int tries = 0; tries < 1000 && !opened; ++tries) {
+    opened = audio->open({}).has_value();
+    if (!opened) std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_TRUE(opened);
 }
 
 TEST(AlsaOutput, WritesSixteenBitsWithoutWrappingRound) {

@@ -9,8 +9,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 namespace relievo::test {
 namespace {
@@ -94,6 +96,7 @@ extern "C" {
 int _snd_pcm_relievo_fake_open(snd_pcm_t** pcm, const char* name, snd_config_t* /*root*/, snd_config_t* /*config*/,
                                snd_pcm_stream_t direction, int mode) {
   using namespace relievo::test;
+  for (int i = 0; i < 2000 && sound_server_stalls; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (fakeSoundCard().unplugged) return -ENODEV;
   auto* const stream = new Stream;
   stream->io.version = SND_PCM_IOPLUG_VERSION;

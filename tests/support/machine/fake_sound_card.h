@@ -2,6 +2,7 @@
 // A simulated sound card: an ALSA plug-in that plays in time with a test's clock.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <string>
 
@@ -18,6 +19,9 @@ struct FakeSoundCard {
   std::int16_t loudest = 0;  // of 16 bit samples
 };
 [[nodiscard]] FakeSoundCard& fakeSoundCard() noexcept;
+
+// While true, and for at most 20 s, opening the card does not return: as with a sound server that does not answer.
+inline std::atomic<bool> sound_server_stalls{false};
 
 // Call before ALSA is used: it then finds only these cards.
 void plugFakeSoundCard();
