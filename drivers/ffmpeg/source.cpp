@@ -234,27 +234,26 @@ class FfmpegSource final : public MediaSource {
     if (input_.isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch_.begin(kReadPatience, lateReading(address_.way));
+    const bool onwards = target > MediaTime{};
+    int sought = !onwards && seeksByBytes() ? av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) : AVERROR(ENOSYS);
+    // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
+    const AVStream& stream = *context_->streams[onwards ? leading_stream_ : earliest_stream_];
+    const MediaTime last_second(std::max(Duration(0), duration() - std::chrono::seconds(1)));
+    if (sought < 0) sought = seekToKeyframe(stream, target);
+    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, last_second));  // failed: too near the end
+    if (sought < 0) return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
     beginTimes();
     input_.beginElsewhere();
     ahead_.clear();
     end_.seek(target);
-    sought_ = target > MediaTime{};
-    if (!sought_ && seeksByBytes() && av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) >= 0) return {};
-    // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
-    const AVStream& stream = *context_->streams[sought_ ? leading_stream_ : earliest_stream_];
-    int sought = seekToKeyframe(stream, target);
-    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, lastSecond()));  // failed: too near the end
-    if (sought >= 0) return {};
-    return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
+    sought_ = onwards;
+    return {};
   }
 
   int seekToKeyframe(const AVStream& stream, MediaTime target) const noexcept {
     const Duration time = target.time_since_epoch() + start_;
     const std::int64_t ticks = av_rescale_q(time.count(), kNanosecond, stream.time_base);
     return av_seek_frame(context_.get(), stream.index, ticks, AVSEEK_FLAG_BACKWARD);
-  }
-  MediaTime lastSecond() const noexcept {
-    return MediaTime(std::max(Duration(0), duration() - std::chrono::seconds(1)));
   }
 
   // In a multiplex without an index FFmpeg searches by time and loses the picture that it lands in. To keep the first

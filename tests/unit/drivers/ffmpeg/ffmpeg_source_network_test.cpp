@@ -230,6 +230,30 @@ TEST(FfmpegSource, ABrokenConnectionIsTakenUpWhereItBroke) {
   EXPECT_THAT(second_request, HasSubstr("bytes=" + std::to_string(half) + "-"));
 }
 
+TEST(FfmpegSource, ARefusedSeekForgetsNothing) {
+  TemporaryFolder folder;
+  const auto noise = [](int, int c, int r, int k) { return (c + 160U * r + 19200U * k) * 2654435761U >> 24; };
+  makeClip(folder / "a.flv", {{.codec = "flv", .pix_fmt = "yuv420p", .width = 160, .height = 120, .sample = noise}});
+  cutFile(folder / "a.flv", 0.6);
+  std::ifstream file(folder / "a.flv", std::ios::binary);
+  std::string film(std::istreambuf_iterator<char>(file), {});
+  film.insert(0, "HTTP/1.1 200 OK\r\nContent-Length: " + std::to_string(film.size()) + "\r\n\r\n");
+  const auto source = makeFfmpegSource();
+  Server server;  // sends no parts of a file
+  std::thread other([&] {
+    const UniqueFd to = server.accept();
+    std::string request(4096, '\0');
+    EXPECT_GT(::recv(to.get(), request.data(), request.size(), 0), 0);
+    EXPECT_EQ(::send(to.get(), film.data(), film.size(), MSG_NOSIGNAL), static_cast<ssize_t>(film.size()));
+  });
+  const std::size_t pictures = source->open(server.url) ? readAll(*source).size() : 0;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(toSeconds(source->missing()), 1 - static_cast<double>(pictures) / 30, 0.05);
+    EXPECT_FALSE(source->seek(mediaTime(0.1)).has_value());
+  }
+  other.join();
+}
+
 TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
   const Server server;
   const auto source = makeFfmpegSource();
