@@ -70,6 +70,7 @@ Result<void> PairReader::seek(MediaTime target, Duration key_step) {
   if (auto sought = impl_->sources.color()->seek(target, key_step); !sought) {
     return impl_->failOn(impl_->options.url, sought.error());
   }
+  impl_->goes_on_at = target;  // if it is lost before the next pair
   impl_->color_ahead.clear();
   impl_->left_out.jump();
   impl_->key_step = key_step;

@@ -261,5 +261,29 @@ TEST(PairReader, VerbsWithoutAFilmAreRefused) {
   reader.close();
 }
 
+// Wherever the connection breaks between the seek and its first pair: the depth is read behind the colour.
+TEST(PairReader, AfterALossBehindASeekItGoesOnAtTheTarget) {
+  int losses = 0;
+  for (std::uint64_t packets = 1; packets < 40; ++packets) {
+    MockFilm film;
+    film.depth.tracks = {MockTrack{}, MockTrack{.tags = {{"TITLE", "depth"}}}};
+    film.depth.remote = true;
+    film.color = film.depth;
+    film.color.lose_after_packets = packets;  // once: the next connection is to `depth`
+    const MediaTime target = film.color.tracks[0].pts(90);
+    if (!film.reader.open({.url = "film"}) || !film.reader.seek(target)) continue;
+    auto pair = film.reader.next();
+    if (!pair) {
+      ++losses;
+      ASSERT_TRUE(film.reader.isSourceLost(pair.error()));
+      ASSERT_TRUE(film.reader.reopen());
+      pair = film.reader.next();
+    }
+    ASSERT_TRUE(pair && *pair);
+    EXPECT_EQ((*pair)->color.pts, target) << packets;
+  }
+  EXPECT_GT(losses, 0);
+}
+
 }  // namespace
 }  // namespace relievo
