@@ -140,8 +140,8 @@ void StereoSurvey::look(const Frame& left, const Frame& right) {
   pairs_.insert(pairs_.end(), found.begin(), found.end());
   looked_.push_back({reduced(a, kKeptCols), reduced(b, kKeptCols)});
   if (looked_.size() < kMostLooks) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < looked_.size(); i += 2) looked_[kept++] = std::move(looked_[i]);
+  std::size_t kept = 1;  // the first stays: a picture that is moved to itself loses its bytes
+  for (std::size_t i = 2; i < looked_.size(); i += 2) looked_[kept++] = std::move(looked_[i]);
   looked_.resize(kept);
   stride_ *= 2;
 }

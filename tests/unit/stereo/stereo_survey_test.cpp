@@ -132,6 +132,18 @@ TEST(StereoSurvey, EachShotHasItsOwnRangeFromItsFirstPictureOn) {
   EXPECT_EQ(&plan.at(mediaTime(3)), &plan.shots[1]);
 }
 
+// Of a long shot every second look is dropped, and those that stay are still whole.
+TEST(StereoSurvey, ALongShotHasTheRangeOfAShortOne) {
+  const TwoViews scene = boards(160, 100);
+  const Frame left = scene.left(), right = scene.right();
+  StereoSurvey survey;
+  for (int k = 0; k < 30; ++k) ASSERT_TRUE(survey.add(at(left, 0.5 * k), at(right, 0.5 * k)).has_value());
+  const ShotPlan shot = survey.finish().value().shots.at(0), brief = planOf(left, right).value().shots.at(0);
+  EXPECT_TRUE(shot.has_depth);
+  EXPECT_EQ(shot.range.lowest, brief.range.lowest);
+  EXPECT_EQ(shot.range.highest, brief.range.highest);
+}
+
 TEST(StereoSurvey, RefusesAPictureOfAnotherSize) {
   StereoSurvey survey;
   const TwoViews scene = boards(), smaller = boards(160, 100);
