@@ -37,15 +37,14 @@ class QuickDepth {
   // Codes of 16 bits and full range, linear in disparity over the shot's range, near high, without holes; with the left
   // view's time and shape. A shot without depth, such as one with a black view, has the middle code.
   [[nodiscard]] Frame depthOf(const Frame& left, const Frame& right);
-  // True if both views show the same scene in the present shot, and are not the same picture.
-  [[nodiscard]] bool hasDepth() const noexcept { return range_.has_value(); }
   // True if both views of the present shot are the same picture, so that they give no depth.
   [[nodiscard]] bool isOnePicture() const noexcept { return one_picture_; }
   // True if the right eye's view came first. The depth is still that of the view that came first.
   [[nodiscard]] bool areSwapped() const noexcept { return swapped_; }
   // True if the present shot was examined, and neither it nor those before it showed the order.
   [[nodiscard]] bool isOrderUnknown() const noexcept { return range_ && votes_left_ == 0 && !isOrderTold(); }
-  // The disparities of the present shot's lowest and highest code, as parts of the width; near is high.
+  // The disparities of the present shot's lowest and highest code, as parts of the width; near is high. A shot without
+  // depth has none.
   struct Range {
     float low = 0, high = 0;
   };

@@ -159,7 +159,7 @@ TEST(QuickDepth, ViewsInTheWrongOrderAreMatchedInTheRightOne) {
   EXPECT_GT(near, codeOf(depth, static_cast<int>(board.left - board.disparity) - 8, 170) + 10000);
   EXPECT_GT(near, codeOf(depth, static_cast<int>(board.right - board.disparity) + 8, 170) + 10000);
   static_cast<void>(quick.depthOf(scene.right(), scene.left()));
-  EXPECT_TRUE(quick.hasDepth()) << "it is one shot";
+  EXPECT_TRUE(quick.range()) << "it is one shot";
   QuickDepth in_order;
   static_cast<void>(in_order.depthOf(scene.left(), scene.right()));
   EXPECT_FALSE(in_order.areSwapped());
@@ -210,12 +210,12 @@ TEST(QuickDepth, OnePictureTwiceIsFlat) {
   QuickDepth quick;
   const Frame flat = quick.depthOf(scene.left(), scene.leftWithGrain(4));
   EXPECT_TRUE(quick.isOnePicture());
-  EXPECT_FALSE(quick.hasDepth());
+  EXPECT_FALSE(quick.range());
   EXPECT_EQ(codeOf(flat, 10, 10), codeOf(flat, 430, 170));
   quick.beginShot();
   static_cast<void>(quick.depthOf(scene.left(), scene.right()));
   EXPECT_FALSE(quick.isOnePicture());
-  EXPECT_TRUE(quick.hasDepth());
+  EXPECT_TRUE(quick.range());
 }
 
 TEST(QuickDepth, IsAsGoodWithAnotherExposure) {
@@ -278,10 +278,10 @@ TEST(QuickDepth, WithoutCommonThingsAShotIsFlatUntilTheyCome) {
   const TwoViews scene = boards(kCols, kRows);
   QuickDepth quick;
   const Frame black = quick.depthOf(scene.left(), scene.right({.gain = 0}));
-  EXPECT_FALSE(quick.hasDepth());
+  EXPECT_FALSE(quick.range());
   EXPECT_EQ(codeOf(black, 10, 10), codeOf(black, 400, 200));
   const Frame both = quick.depthOf(scene.left(), scene.right());
-  EXPECT_TRUE(quick.hasDepth());
+  EXPECT_TRUE(quick.range());
   EXPECT_GT(codeOf(both, 430, 170), codeOf(both, 10, 10) + 10000);
 }
 
