@@ -45,6 +45,7 @@ struct PairReader::Impl {
   // In pair_reading.cpp: where the depth is.
   void lookAround();
   Result<TrackPlan> planFilm();
+  void takeSmoothest(TrackPlan& plan);
   void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
   Result<const Frame*> firstDepth();

@@ -7,6 +7,7 @@
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
+#include "app/media/reading/depth_tracks.h"
 #include "app/media/reading/float_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"
@@ -87,6 +88,7 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
     std::swap(plan->color, plan->depth);
     clues.why.emplace_back("the first track is gray and the second is not: the second is the colour");
   }
+  if (plan->depth != nullptr) takeSmoothest(*plan);
   clues.packing_by = options.packing != Packing::Auto || two_sources ? CommandLine
                      : plan->by_tag                                  ? ContainerTags
                                                                      : StreamSignalling;
@@ -99,6 +101,28 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
     clues.packing_by = clues.place.origin;
   }
   return plan;
+}
+
+// A camera's infrared is stored as its depth is, or in 8 bits. The smoothest track is the depth if the one that was
+// planned is clearly rougher.
+void PairReader::Impl::takeSmoothest(TrackPlan& plan) {
+  constexpr double kClearly = 2;
+  const MediaSource& source = sources.color()->source();
+  const StreamInfo* smoothest = plan.depth;
+  double least = 1, planned = 1;
+  for (const StreamInfo* const track : likelyDepthTracks(source)) {
+    const auto scout = scoutOf(options.url, track->index);
+    if (!scout) return;
+    const auto picture = scout->next(0);
+    if (!picture || !*picture || (*picture)->model != ColorModel::Gray) return;
+    const double roughness = roughnessOf(**picture);
+    if (track == plan.depth) planned = roughness;
+    if (roughness < least) least = roughness, smoothest = track;
+  }
+  if (smoothest == plan.depth || planned <= kClearly * least) return;
+  plan.depth = smoothest;
+  plan.color = findColorTrack(source, smoothest);
+  clues.why.push_back(print("track %d is the smoothest of the gray ones: it is the depth", smoothest->index));
 }
 
 // If nothing states where the depth is and there is only one track, the picture itself may show it.

@@ -127,4 +127,22 @@ bool isScattered(const Frame& depth) {
   return readings > 0 && 2 * alone > readings;
 }
 
+double roughnessOf(const Frame& gray) {
+  const CodeCount count(gray);
+  const std::uint32_t top = (1u << count.bits()) - 1;
+  std::vector<std::uint32_t> differences;
+  for (int r = 0; r < gray.height; ++r) {
+    for (int c = 1; c < gray.width; ++c) {
+      const std::uint32_t left = grayAt(gray, c - 1, r), here = grayAt(gray, c, r);
+      const bool are_readings = std::min(left, here) > 0 && std::max(left, here) < top;
+      if (are_readings) differences.push_back(left > here ? left - here : here - left);
+    }
+  }
+  const auto [low, high] = count.reach(0.02, 1, top - 1);
+  if (differences.empty() || high == low) return 1;
+  const auto median = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::ranges::nth_element(differences, median);
+  return static_cast<double>(*median) / (high - low);
+}
+
 }  // namespace relievo

@@ -65,6 +65,10 @@ class CodeCount {
 // True if most samples with a reading have none beside, above and below: the points of a laser scanner.
 [[nodiscard]] bool isScattered(const Frame& depth);
 
+// How much neighbouring samples differ, as a share of the range of the codes: the median. Depth is smooth, infrared and
+// other photos are not. 1 if the picture shows nothing.
+[[nodiscard]] double roughnessOf(const Frame& gray);
+
 // True for RGB of more than 8 bits whose samples are all gray: each component is the code.
 [[nodiscard]] bool hasEqualColors(const Frame& depth) noexcept;
 

@@ -3,10 +3,12 @@
 #include "app/media/reading/packing.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "app/media/reading/depth_tracks.h"
 #include "app/scene/material.h"
 #include "hal/media/media_names.h"
 #include "platform/lower_case.h"
@@ -163,6 +165,20 @@ bool isMarkedAsDepth(const StreamInfo& track) {
 
 const StreamInfo* findDepthTrack(const MediaSource& source) {
   return depthAmong(videoTracks(source));
+}
+
+std::vector<const StreamInfo*> likelyDepthTracks(const MediaSource& source) {
+  auto tracks = videoTracks(source);
+  if (std::ranges::any_of(tracks, [](auto* track) { return isMarkedAsDepth(*track); })) return {};
+  const auto is_deep = [](auto* track) {  // "gray16le", "gray12le", ..
+    return track->pixel_format.starts_with("gray") && track->pixel_format != "gray";
+  };
+  std::erase_if(tracks, std::not_fn(is_deep));
+  return tracks;
+}
+
+const StreamInfo* findColorTrack(const MediaSource& source, const StreamInfo* depth) {
+  return colorAmong(videoTracks(source), depth);
 }
 
 const char* name(Packing packing) noexcept {

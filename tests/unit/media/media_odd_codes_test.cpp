@@ -273,5 +273,29 @@ TEST(OddCodes, EveryKindsCalibrationIsInTheWordsOfTheCommandLine) {
   EXPECT_GT(kinds, 20);
 }
 
+// Infrared is stored as depth is, or in 8 bits, before it or after it, and no track says what it is.
+TEST(OddCodes, OfTracksOfGrayTheSmoothOneIsTheDepth) {
+  const auto speckle = [](int c, int r) { return (c * 7919 + r * 104729) % 97; };
+  const auto color =
+      track("ffv1", "yuv444p", [](int k, int c, int r, int) { return test::yuvCode(k, test::photoOf(c, r)); }, 2);
+  const auto depth = track("ffv1", "gray16le", [](int, int c, int r, int) { return rounded(distanceMm(c, r)); }, 2);
+  const auto infrared = track(
+      "ffv1", "gray16le",
+      [&](int, int c, int r, int) {
+        return rounded(400 + 4e8 / (distanceMm(c, r) * distanceMm(c, r) + 1e5) + speckle(c, r));
+      },
+      2);
+  const auto pale = track("ffv1", "gray", [&](int, int c, int r, int) { return 40 + rounded(speckle(c, r)); }, 2);
+  for (const auto& tracks : std::vector<std::vector<ClipTrack>>{{color, infrared, depth},
+                                                                {color, depth, infrared},
+                                                                {infrared, depth},
+                                                                {depth, infrared},
+                                                                {color, pale, depth}}) {
+    TemporaryFolder folder;
+    makeClip(folder / "a.mkv", tracks);
+    expectScene(openFilm({.url = folder / "a.mkv"}), 1, {.mm = 0.51});
+  }
+}
+
 }  // namespace
 }  // namespace relievo
