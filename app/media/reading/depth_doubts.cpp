@@ -153,6 +153,13 @@ std::string doubtShape(const Frame& depth, const Frame& color) {
   constexpr double kSame = 0.03;
   const double ratio = aspectOf(depth) / aspectOf(color);
   if (std::abs(ratio - 1) <= kSame) return "";
+  if (std::abs(aspectOf(depth) * aspectOf(color) - 1) <= kSame) {
+    return print(
+        "the colour is %.2f times as wide as high, the depth %.2f: one of them lies on its side; turn the depth, such "
+        "as ffmpeg -i DEPTH -vf transpose=1 -c:v ffv1 TURNED.mkv (transpose=2: the other way round), and give it as "
+        "--depth TURNED.mkv",
+        aspectOf(color), aspectOf(depth));
+  }
   return print(
       "the colour is %.2f times as wide as high, the depth %.2f: the depth is stretched onto the colour; if both show "
       "the same view and the colour is squeezed, play it with --box %s; if one shows more than the other, give "
@@ -202,7 +209,9 @@ std::string nearEndLine(const DepthCalibration& calibration, double nearer_below
   const std::string line =
       print("nothing says which end of the depth is near: %s is taken%s; if it is %s: --calibration polarity=%s",
             near_high ? high : low, view, near_high ? low : high, near_high ? "near-low" : "near-high");
-  return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "");
+  const bool may_be_mm = calibration.code == DepthCode::Luma && calibration.bits >= 12 && calibration.bits < 16;
+  return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "") +
+         (may_be_mm ? "; if a code is 1 mm: --as mm" : "");
 }
 
 std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color,

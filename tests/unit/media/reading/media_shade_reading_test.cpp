@@ -179,6 +179,27 @@ TEST(ShadeReading, BlackThatMayBeAHoleIsOfferedAsOne) {
   }
 }
 
+// A sensor's distances fit into 12 bits of HEVC or of gray; 10 bits are too few for a room.
+TEST(ShadeReading, DeepShadesMayBeMillimetres) {
+  const auto doubts = [](int bits) {
+    Frame frame = makeGrayFrame(64, 96, bits, {}, [](int c, int r) { return c < 4 ? 0 : 300 + 4 * r + c; });
+    frame.model = ColorModel::Yuv;
+    return readMeaning({}, nullptr, frame).value().reading.doubts;
+  };
+  EXPECT_THAT(doubts(12), ElementsAre(HasSubstr("--as mm")));
+  EXPECT_THAT(doubts(10), ElementsAre(Not(HasSubstr("--as mm"))));
+}
+
+// A telephone's colour is upright, its depth as the sensor lies.
+TEST(ShadeReading, DepthThatLiesOnItsSideIsToBeTurned) {
+  const auto of_size = [](int cols, int rows) {
+    return makeGrayFrame(cols, rows, 8, {}, [](int c, int r) { return (3 * c + r) % 256; });
+  };
+  const Frame color = of_size(96, 128);
+  EXPECT_THAT(doubtsOf(of_size(64, 48), {}, &color), Contains(AllOf(HasSubstr("transpose"), Not(HasSubstr("--box")))));
+  EXPECT_THAT(doubtsOf(of_size(72, 48), {}, &color), Contains(AllOf(HasSubstr("--box"), Not(HasSubstr("transpose")))));
+}
+
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
 TEST(ShadeReading, ShadesThatSwingAlongASlopeAreDoubted) {
   const auto doubts = [](const auto& code) { return doubtsOf(makeGrayFrame(256, 64, 8, {}, code), {}); };
