@@ -41,6 +41,14 @@ double bopScaleMm(const std::string& place) {
   return std::isfinite(scale) && scale > 0 && scale < 1e4 ? scale : 0;
 }
 
+// Blanks, and comments to the end of their line.
+std::size_t behindBlanks(std::string_view header, std::size_t at) {
+  while (at < header.size() && header.find_first_of("0123456789", at) != at) {
+    at = header[at] == '#' ? std::min(header.find('\n', at), header.size() - 1) + 1 : at + 1;
+  }
+  return at;
+}
+
 // Where the samples of a binary PGM of 16 bits begin; 0 if it is none.
 std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
   constexpr std::size_t kLongestHeader = 256;
@@ -49,8 +57,8 @@ std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
   std::size_t at = 2;
   int most = 0;
   for (int number = 0; number < 3; ++number) {
-    at = text.find_first_of("0123456789", at);
-    if (at == text.npos) return 0;
+    at = behindBlanks(text, at);
+    if (at == text.size()) return 0;
     at = static_cast<std::size_t>(std::from_chars(text.data() + at, text.data() + text.size(), most).ptr - text.data());
   }
   return most > 255 ? at + 1 : 0;
@@ -82,6 +90,16 @@ void mendByteOrder(std::vector<std::uint8_t>& pgm) {
   }
   if (as_is || !swapped) return;
   for (std::size_t i = begin; i + 1 < pgm.size(); i += 2) std::swap(pgm[i], pgm[i + 1]);
+}
+
+void keepCodes(std::vector<std::uint8_t>& pgm) {
+  constexpr std::string_view kHighest = "65535";
+  const std::size_t begin = samplesOf(pgm);
+  if (begin == 0) return;
+  const auto end = pgm.begin() + static_cast<std::ptrdiff_t>(begin - 1);
+  auto digits = end;
+  while (*std::prev(digits) >= '0' && *std::prev(digits) <= '9') --digits;
+  pgm.insert(pgm.erase(digits, end), kHighest.begin(), kHighest.end());
 }
 
 }  // namespace relievo::pictures

@@ -22,4 +22,8 @@ namespace relievo::pictures {
 // all codes are a Kinect's, at most 2047.
 void mendByteOrder(std::vector<std::uint8_t>& pgm);
 
+// States 65535 as the highest code of a 16-bit PGM. Decoders stretch codes to the whole range; a sensor's are not meant
+// so, whatever its recorder states as the highest one.
+void keepCodes(std::vector<std::uint8_t>& pgm);
+
 }  // namespace relievo::pictures

@@ -166,6 +166,11 @@ class PicturesSource final : public MediaSource {
     for (std::size_t i = 0; i < pictures.size(); ++i) entries_.push_back({pictures[i].time, stream, i});
   }
 
+  // Beside depth.
+  [[nodiscard]] bool isColor(const Entry& entry) const {
+    return entry.stream == 0 && !recording_.color.empty() && !recording_.depth.empty();
+  }
+
   [[nodiscard]] const std::string& pathOf(const Entry& entry) const {
     const bool depth = entry.stream == 1 || recording_.color.empty();
     return (depth ? recording_.depth : recording_.color)[entry.place].path;
@@ -198,6 +203,7 @@ class PicturesSource final : public MediaSource {
         continue;
       }
       if (isNyuDepth(pathOf(entry))) mendByteOrder(**bytes);
+      if (!isColor(entry) && endingOf(pathOf(entry)) == "pgm") keepCodes(**bytes);
       Packet packet{.stream = entry.stream, .data = (*bytes)->data(), .bytes = (*bytes)->size()};
       packet.pts = packet.dts = MediaTime(entry.time);
       packet.keyframe = true;

@@ -10,6 +10,7 @@
 
 #include "app/media/pair_reader.h"
 #include "drivers/registry.h"
+#include "platform/whole_file.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
@@ -241,6 +242,23 @@ TEST_F(PictureFolder, APictureBeyondThoseLookedAtIsToldOnce) {
   EXPECT_LE(near, 570);
   EXPECT_GE(far, 4000);
   EXPECT_LE(far, 4600);
+}
+
+// Recorders state as the highest code what their sensor can measure, or what the picture holds.
+TEST_F(PictureFolder, CodesOfAPgmStayWhateverItsHighestOneIs) {
+  slope(folder_ / "p/depth/1.pgm", 600, 2130);
+  std::string text = *readWholeFile(folder_ / "p/depth/1.pgm", FileSize::Recording, "");
+  text.replace(0, std::string("P5\n32 24\n65535").size(), "P5\n# made by 4.2\n32 24\n10000");
+  std::ofstream(folder_ / "p/depth/1.pgm", std::ios::binary) << text;
+  picture("p/rgb/1.ppm", 9);
+  for (const char* url : {"p", "p/depth/1.pgm"}) {
+    PairReader reader(kReal);
+    ASSERT_TRUE(reader.open({.url = folder_ / url}));
+    EXPECT_EQ(reader.info().calibration.calibration.unit_mm, 1.0) << url;
+    const auto pair = reader.next();
+    ASSERT_TRUE(pair && *pair);
+    EXPECT_EQ(sampleAt((*pair)->depth, 0, 31, 23), 2130u) << url;
+  }
 }
 
 TEST_F(PictureFolder, NyusRawDepthIsReadAsItWasMeant) {
