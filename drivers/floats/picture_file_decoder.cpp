@@ -32,6 +32,14 @@ bool isGrayRgb(const FilePicture& picture) noexcept {
   return true;
 }
 
+// Numbers in red, and nothing in green and blue: Unity's depth.
+bool isRedAlone(const FilePicture& picture) noexcept {
+  for (std::size_t i = 0; i + 2 < picture.samples.size(); i += 3) {
+    if (picture.samples[i + 1] != 0 || picture.samples[i + 2] != 0) return false;
+  }
+  return true;
+}
+
 // Whether the three components are the places of points, whose distance is the third: left and right of the camera, and
 // above and below, are negative as well, distances are not; OpenGL's are nothing else. Normals are all of length 1.
 bool isPoints(const FilePicture& picture) noexcept {
@@ -144,6 +152,7 @@ class PictureFileDecoder final : public VideoDecoder {
     reading.gray = first.components == 1 || isGrayRgb(first);
     const auto step = static_cast<std::size_t>(first.components);
     reading.plain = first.whole_bits > 0;
+    if (!reading.gray && !reading.plain) reading.gray = isRedAlone(first);
     if (first.whole_bits == 8) reading.stretch = kStretch;
     if (!reading.gray && !reading.plain && isPoints(first)) {
       reading.gray = true;

@@ -39,9 +39,9 @@ struct PictureFormat {
 [[nodiscard]] bool isSoundSize(std::uint64_t width, std::uint64_t height) noexcept;
 
 // One component, or three that are equal throughout the first picture, become 16-bit gray codes on one scale for the
-// whole film (hal/media/float_codes.h), which Frame::value_per_code states. Whole numbers that fit become codes
-// unchanged, those of 8 bits stretched to 16. Other colours become 16-bit RGB; floating-point ones are taken as linear
-// light and encoded for a screen.
+// whole film (hal/media/float_codes.h), which Frame::value_per_code states; so does red where green and blue are 0 in
+// floating point. Whole numbers that fit become codes unchanged, those of 8 bits stretched to 16. Other colours become
+// 16-bit RGB; floating-point ones are taken as linear light and encoded for a screen.
 [[nodiscard]] std::unique_ptr<VideoDecoder> makePictureFileDecoder(PictureFormat format);
 
 }  // namespace relievo

@@ -152,6 +152,7 @@ TEST(Exr, DepthIsFoundInEveryChannelAndType) {
            {{"Y", Type::Half, depthWith(kInfinity)}},
            {{"B", Type::Float, depth}, {"G", Type::Float, depth}, {"R", Type::Float, depth}},
            {{"V", Type::Float, depthWith(1e9F)}},
+           {{"B", Type::Float, depthWith(0, 0)}, {"G", Type::Float, depthWith(0, 0)}, {"R", Type::Float, depth}},
        }) {
     SCOPED_TRACE(channels.back().name);
     write(folder / "z.exr", exr(channels));
