@@ -46,6 +46,34 @@ std::string depthFileOf(const MediaSource& source, const std::string& depth_url)
   return file != depth->tags.end() ? file->second : "";
 }
 
+// The rows above the picture that are white but for words: a caption. 0 if there are none.
+int captionRows(const Frame& picture) {
+  constexpr int kAcross = 200, kLeast = 8;
+  constexpr double kWhite = 0.9, kMostly = 0.7;
+  const int across = std::min(kAcross, picture.width);
+  const auto is_white = [&](int r) {
+    int white = 0;
+    for (int i = 0; i < across; ++i) {
+      const PictureColor color = colorAt(picture, (2 * i + 1) * picture.width / (2 * across), r);
+      white += std::min({color.red, color.green, color.blue}) >= kWhite ? 1 : 0;
+    }
+    return white >= kMostly * across;
+  };
+  int rows = 0;
+  while (rows < picture.height / 2 && is_white(rows)) ++rows;
+  return rows < kLeast || rows == picture.height / 2 ? 0 : rows;
+}
+
+// Depth Anything's first version writes the picture, white columns and its depth, all under a caption.
+std::string captionLine(const Frame& look, bool still) {
+  const int rows = whiteSeam(look) > 0 ? captionRows(look) : 0;
+  if (rows == 0) return "";
+  return print(
+      "white columns part two pictures below a caption of %d rows; if one is depth, cut it off: ffmpeg -i FILE "
+      "-vf crop=iw:ih-%d:0:%d %s",
+      rows, rows, rows, still ? "OUT.png" : "-crf 12 OUT.mkv");
+}
+
 // The luma of shades of red alone: from black to the share of red in white.
 CalibrationSettings redAsLuma(const Frame& picture) {
   if (picture.model != ColorModel::Yuv) return {};
@@ -140,6 +168,8 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   }
   auto found = findPacking(look);
   if (!found && color.codec == "gif") found = findPacking(meansOf(look));
+  if (std::string caption = captionLine(look, info.duration == Duration(0)); !caption.empty())
+    info.notes.push_back(std::move(caption));
   if (!found) {
     lookForViews(look);
     const PictureLook seen = lookAt(look);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth whose 16-bit codes lie in two bytes of an RGB picture: read, and not taken for hue; hues and photos are not
 // taken for it.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -202,6 +203,24 @@ TEST(PackedCodes, AWhiteMarginBetweenTheHalvesBelongsToNeither) {
   for (int r = 0; r < test::kSceneRows; ++r) {
     for (int c = 0; c < test::kSceneCols; ++c) ASSERT_EQ(test::sampleAt(film.pair.depth, 0, c, r), shade(c, r)) << c;
   }
+}
+
+// Depth Anything's pictures have a caption above both halves, too: what is left without it is read.
+TEST(PackedCodes, ACaptionAboveTheHalvesIsTold) {
+  constexpr int kCaption = 60;
+  TemporaryFolder folder;
+  const auto shade = [](int c, int r) { return static_cast<std::uint32_t>(20 + 2 * c % 200 + r % 30); };
+  ClipTrack captioned = besideColor(50, [&](int, int c, int r) { return shade(c, r); });
+  captioned.sample = [plain = captioned.sample](int k, int c, int r, int frame) -> std::uint32_t {
+    const bool letter = r > 20 && r < 40 && c % (test::kSceneCols + 50) / 10 == 5;
+    return r >= kCaption ? plain(k, c, r - kCaption, frame) : letter ? 0 : 255;
+  };
+  const ClipTrack plain = besideColor(50, [&](int, int c, int r) { return shade(c, r); });
+  captioned.height += kCaption;
+  makeClip(folder / "a.png", {captioned}), makeClip(folder / "b.png", {plain});
+  const auto told = testing::Contains(testing::HasSubstr("crop=iw:ih-60:0:60 OUT.png"));
+  EXPECT_THAT(openFilm({.url = folder / "a.png"}).info.notes, told);
+  EXPECT_THAT(openFilm({.url = folder / "b.png"}).info.notes, testing::Not(told));
 }
 
 // From red over yellow to green, one byte has its highest value while another one changes; blue is 0 throughout.
