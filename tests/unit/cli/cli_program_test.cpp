@@ -11,6 +11,7 @@
 #include <functional>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
 #include "app/cli/program.h"
@@ -58,7 +59,12 @@ TEST(ProgramDeathTest, AThreadWithoutMemoryEndsTheProgramWithALine) {
   };
   EXPECT_EXIT(run([] { throw std::bad_alloc(); }), testing::ExitedWithCode(kExitFailed),
               "^quietrelievo: std::bad_alloc: the system is out of resources; .*\n$");
-  EXPECT_EXIT(run([] { throw std::logic_error("a fault"); }), testing::KilledBySignal(SIGABRT), "quiet");
+  const auto refused = [](std::errc why) { return [why] { throw std::system_error(std::make_error_code(why)); }; };
+  for (const std::errc lack : {std::errc::resource_unavailable_try_again, std::errc::not_enough_memory}) {
+    EXPECT_EXIT(run(refused(lack)), testing::ExitedWithCode(kExitFailed), "the system is out of resources");
+  }
+  EXPECT_EXIT(run(refused(std::errc::bad_file_descriptor)), testing::KilledBySignal(SIGABRT), "^quiet$");
+  EXPECT_EXIT(run([] { throw std::logic_error("a fault"); }), testing::KilledBySignal(SIGABRT), "^quiet$");
 }
 
 // Otherwise a film that is opened later would get the number of standard output, and printed lines would go into it.
