@@ -2,9 +2,11 @@
 // The FFmpeg source: streams, times from zero, seeks.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 
 #include "drivers/ffmpeg/ffmpeg.h"
+#include "platform/files/file_system_answer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
@@ -104,6 +106,17 @@ TEST(FfmpegSource, OfSeveralProgrammesTheFilmBeginsByItsOwnClock) {
     ASSERT_TRUE(source->seek(MediaTime{}).has_value());
     EXPECT_EQ(readAll(*source).front().pts, MediaTime{}) << other;
   }
+}
+
+// That of a picture of a folder reads through a source that nobody else knows.
+TEST(FfmpegSource, ALookEndsWhenItsFilmIsLeft) {
+  const TemporaryFolder folder;
+  makeClip(folder / "film.mkv", {kH264});
+  std::atomic<bool> left{false};
+  const CancelsAnswers cancels(left);
+  EXPECT_TRUE(makeFfmpegSource()->open(folder / "film.mkv"));
+  left = true;
+  EXPECT_FALSE(makeFfmpegSource()->open(folder / "film.mkv"));
 }
 
 struct Container {
