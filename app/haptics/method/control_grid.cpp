@@ -212,18 +212,21 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
   return readings < kLeastWeight ? pit_mm_ : sum / readings;
 }
 
-void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
-  if (!wasPatch(i0, j0, frames.wanted)) {
-    complete({i0, j0, i0 + 4, j0 + 4}, frames);
-    std::uint32_t holes = 0;
-    for (int j = j0; j < j0 + 4; ++j) {
-      for (int i = i0; i < i0 + 4; ++i) holes |= hole_[slotOf(i, j)] & frames.wanted;
-    }
-    patch_ = {i0, j0, frames.wanted};
-    patch_holes_ = holes != 0;
-    slots_read_ |= frames.wanted;
+void ControlGrid::readPatch(int i0, int j0, const Frames& frames) RELIEVO_RT {
+  if (wasPatch(i0, j0, frames.wanted)) return;
+  complete({i0, j0, i0 + 4, j0 + 4}, frames);
+  std::uint32_t holes = 0;
+  for (int j = j0; j < j0 + 4; ++j) {
+    for (int i = i0; i < i0 + 4; ++i) holes |= hole_[slotOf(i, j)] & frames.wanted;
   }
-  weighted(height_, i0, j0, frames.weight, out);
+  patch_ = {i0, j0, frames.wanted};
+  patch_holes_ = holes != 0;
+  slots_read_ |= frames.wanted;
+}
+
+void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT {
+  readPatch(i0, j0, frames);
+  weighted<1>(i0, j0, {&frames.weight}, {&out});
   if (!patch_holes_) return;
   for (int j = 0; j < 4; ++j) {
     for (int i = 0; i < 4; ++i) out[static_cast<std::size_t>(j)][i] = withHoles(slotOf(i0 + i, j0 + j), frames);
@@ -231,20 +234,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
 }
 
 void ControlGrid::straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT {
-  weighted(straight_->of_points, i0, j0, frames.weight, out);
-}
-
-void ControlGrid::weighted(const Heights& of_points, int i0, int j0, const Weights& weights,
-                           Patch& out) const RELIEVO_RT {
-  const Float4 low = load4(weights.data()), high = load4(weights.data() + 4);
-  const auto blend = [&](int i, int j) RELIEVO_RT {
-    const float* heights = of_points[slotOf(i, j)].data();
-    return load4(heights) * low + load4(heights + 4) * high;
-  };
-  for (int j = 0; j < 4; ++j) {
-    out[static_cast<std::size_t>(j)] =
-        sums(blend(i0, j0 + j), blend(i0 + 1, j0 + j), blend(i0 + 2, j0 + j), blend(i0 + 3, j0 + j));
-  }
+  weighted<1>(straight_->of_points, i0, j0, {&frames.weight}, {&out});
 }
 
 bool ControlGrid::isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT {

@@ -75,12 +75,16 @@ class ControlGrid {
   };
   // The control points (i0 .. i0+3, j0 .. j0+3), weighted over the frames.
   void patch(int i0, int j0, const Frames& frames, Patch& out) RELIEVO_RT;
+  // Reads what `patch` needs.
+  void readPatch(int i0, int j0, const Frames& frames) RELIEVO_RT;
   // True if the last patch was of this place and these frames, and is still valid.
   [[nodiscard]] bool wasPatch(int i0, int j0, std::uint32_t wanted) const RELIEVO_RT {
     return patch_ == Place{i0, j0, wanted};
   }
-  // The same points with other weights of the same frames; holes count as level.
-  void weighted(int i0, int j0, const Weights& weights, Patch& out) const RELIEVO_RT {
+  // The same points by several sets of weights of the same frames at once; holes count as level.
+  template <std::size_t kSets>
+  void weighted(int i0, int j0, const std::array<const Weights*, kSets>& weights,
+                const std::array<Patch*, kSets>& out) const RELIEVO_RT {
     weighted(height_, i0, j0, weights, out);
   }
   [[nodiscard]] bool patchHasHoles() const RELIEVO_RT { return patch_holes_; }
@@ -127,7 +131,19 @@ class ControlGrid {
   [[nodiscard]] Lacking prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double bridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT;
-  void weighted(const Heights& of_points, int i0, int j0, const Weights& weights, Patch& out) const RELIEVO_RT;
+  template <std::size_t kSets>
+  static void weighted(const Heights& of_points, int i0, int j0, const std::array<const Weights*, kSets>& weights,
+                       const std::array<Patch*, kSets>& out) RELIEVO_RT {
+    for (int j = 0; j < 4; ++j) {
+      const auto heights = [&](int i) RELIEVO_RT { return of_points[slotOf(i0 + i, j0 + j)].data(); };
+      const float *const a = heights(0), *const b = heights(1), *const c = heights(2), *const d = heights(3);
+      for (std::size_t set = 0; set < kSets; ++set) {
+        const Float4 low = load4(weights[set]->data()), high = load4(weights[set]->data() + 4);
+        const auto sum = [&](const float* of) RELIEVO_RT { return load4(of) * low + load4(of + 4) * high; };
+        (*out[set])[static_cast<std::size_t>(j)] = sums(sum(a), sum(b), sum(c), sum(d));
+      }
+    }
+  }
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;

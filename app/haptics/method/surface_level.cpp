@@ -59,37 +59,18 @@ SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, Ti
 
 // Frames that come together, after a late picture, a seek or a cut, are read one in a tick, and what the law needs
 // besides bit by bit (`readLacking`): until then the surface in time is that of fewer frames.
-void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT {
+void SurfaceLevel::weigh(const FrameSlots& slots, const FrameMoment& moment, const FrameMoment& later,
+                         WeighedFrames& out) const RELIEVO_RT {
   const auto several = [](std::uint32_t bits) RELIEVO_RT { return (bits & (bits - 1)) != 0; };
-  weighBy(time_, slots, moment, out);
+  out.weigh(time_, slots, moment, later);
   while (out.law != TimeLaw::Hold && several(out.frames.wanted & ~grid_.slotsRead())) {
-    weighBy(fewerFrames(out.law), slots, moment, out);
-  }
-}
-
-void SurfaceLevel::weighBy(TimeLaw law, const FrameSlots& slots, const FrameMoment& moment,
-                           Weighed& out) const RELIEVO_RT {
-  out.moment = moment;
-  out.law = law;
-  ControlGrid::Frames& frames = out.frames;
-  frames.window = slots.window;
-  frames.frame_of_slot = slots.frame;
-  frames.weight.fill(0);
-  frames.wanted = 0;
-  out.added.fill(0);
-  const FrameTaps taps(moment, law), added = law == TimeLaw::Adapted ? FrameTaps::addedByFitted(moment) : FrameTaps{};
-  for (std::size_t i = 0; i < FrameTaps::kCount; ++i) {
-    if (taps.weight[i] == 0 && added.weight[i] == 0) continue;
-    const std::uint8_t slot = slots.of_frame[FrameTaps::frame(moment, static_cast<int>(i))];
-    frames.weight[slot] += taps.weight[i];
-    out.added[slot] += added.weight[i];
-    frames.wanted |= 1U << slot;
+    out.weigh(fewerFrames(out.law), slots, moment, later);
   }
 }
 
 // When an edge passes a point, the surface there does not move: carrying its height on would throw it beyond both sides
 // of the edge. So a way over kMostCarriedMm counts less, and a way twice as long not at all.
-RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell,
+RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const WeighedFrames& weighed, const Cell& cell,
                                            Patch& out) RELIEVO_RT {
   grid_.patch(cell.i, cell.j, weighed.frames, out);
   const Duration carried = slots.window->carried;
@@ -114,11 +95,15 @@ RELIEVO_TICK_CODE void SurfaceLevel::blend(const FrameSlots& slots, const Weighe
 
 // Adds x^5/(s^4 + x^4) of what the fitted spline adds, x: nothing of what is less than s by far, all of what is more.
 // All derivatives are continuous, so that the surface stays as smooth in time as the splines are.
-RELIEVO_TICK_CODE void SurfaceLevel::addWhereUnsteady(const Weighed& weighed, const Cell& cell,
+RELIEVO_TICK_CODE void SurfaceLevel::addWhereUnsteady(const WeighedFrames& weighed, const Cell& cell,
                                                       Patch& out) const RELIEVO_RT {
   if (weighed.law != TimeLaw::Adapted || grid_.patchHasHoles()) return;
   Patch added;
-  grid_.weighted(cell.i, cell.j, weighed.added, added);
+  grid_.weighted<1>(cell.i, cell.j, {&weighed.added}, {&added});
+  addWhereUnsteady(added, out);
+}
+
+RELIEVO_TICK_CODE void SurfaceLevel::addWhereUnsteady(const Patch& added, Patch& out) const RELIEVO_RT {
   const float steady2 = steady_mm_ * steady_mm_, steady4 = std::max(steady2 * steady2, kLeast);
   for (std::size_t j = 0; j < 4; ++j) {
     const Float4 square = added[j] * added[j], fourth = square * square;
@@ -149,7 +134,7 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
   if (since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_) {
     for (std::size_t j = 0; j < 4; ++j) patch_.points[j] = prepared_[j] + prepared_rate_[j] * *since_prepared_s_;
   } else {
-    if (!is_weighed_) weigh(*slots_, moment_, weighed_);
+    if (!is_weighed_) weigh(*slots_, moment_, moment_, weighed_);
     is_weighed_ = true;
     blend(*slots_, weighed_, cell, patch_.points);
     addWhereUnsteady(weighed_, cell, patch_.points);
@@ -233,31 +218,47 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
-  weigh(slots, next, weighed_);
-  // The rate leaves out what is added to the B-spline, which hardly changes between two ticks.
-  Weighed then;
-  weighBy(weighed_.law == TimeLaw::Adapted ? TimeLaw::BSpline : weighed_.law, slots, later, then);
-  then.frames.wanted |= weighed_.frames.wanted;
-  blend(slots, then, cell, prepared_rate_);
-  blend(slots, weighed_, cell, prepared_);
-  const Patch plain = prepared_;
-  addWhereUnsteady(weighed_, cell, prepared_);
-  if (weighed_.law != time_) readLacking(slots, next, cell);
-  if (tells_straight_) readStraightness(cell, prepared_straight_);
-  // A point where a hole opens or closes between the two frames jumps, so it has no rate.
+  weigh(slots, next, later, weighed_);
+  grid_.readPatch(cell.i, cell.j, weighed_.frames);
+  const ControlGrid::Weights &here = weighed_.frames.weight, &there = weighed_.later;
+  const bool plain = !grid_.patchHasHoles() && slots.window->carried == Duration(0);
+  const bool adapted = plain && weighed_.law == TimeLaw::Adapted;
+  Patch then, added;
+  if (adapted) {
+    grid_.weighted<3>(cell.i, cell.j, {&here, &there, &weighed_.added}, {&prepared_, &then, &added});
+  } else if (plain) {
+    grid_.weighted<2>(cell.i, cell.j, {&here, &there}, {&prepared_, &then});
+  } else {
+    blendBoth(slots, later, cell, then);
+  }
+  // The rate leaves out what is added to the B-spline, which hardly changes between two ticks. A point where a hole
+  // opens or closes between the two frames jumps, so it has no rate.
   const Float4 pit = Float4{} + grid_.pitMm();
   for (std::size_t j = 0; j < 4; ++j) {
-    const Float4 here = plain[j], then_there = prepared_rate_[j];
-    const auto jumps = (then_there == pit) != (here == pit);
-    prepared_rate_[j] = jumps ? Float4{} : (then_there - here) / static_cast<float>(step_s);
+    const auto jumps = (then[j] == pit) != (prepared_[j] == pit);
+    prepared_rate_[j] = jumps ? Float4{} : (then[j] - prepared_[j]) / static_cast<float>(step_s);
   }
+  if (adapted) addWhereUnsteady(added, prepared_);
+  if (!plain) addWhereUnsteady(weighed_, cell, prepared_);
+  if (weighed_.law != time_) readLacking(slots, next, cell);
+  if (tells_straight_) readStraightness(cell, prepared_straight_);
+}
+
+// Beside holes, and carried forward in time.
+void SurfaceLevel::blendBoth(const FrameSlots& slots, const FrameMoment& later, const Cell& cell,
+                             Patch& then) RELIEVO_RT {
+  WeighedFrames at_then = weighed_;
+  at_then.moment = later;
+  at_then.frames.weight = weighed_.later;
+  blend(slots, at_then, cell, then);
+  blend(slots, weighed_, cell, prepared_);
 }
 
 // A frame in which no point is straight leaves less than 1 - kCounts of straightness, which is none to SmoothLevel.
 bool SurfaceLevel::staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
   constexpr float kCounts = 0.1F;
   constexpr int kBlocksAtOnce = 32;  // a frame's
-  weighBy(time_, slots, moment, weighed_);
+  weighed_.weigh(time_, slots, moment, moment);
   if (grid_.isBent(cell.i, cell.j, weighed_.frames, kCounts)) return true;
   return bent_ && !grid_.readAhead(cell.i, cell.j, weighed_.frames, kBlocksAtOnce);
 }
@@ -265,8 +266,8 @@ bool SurfaceLevel::staysBent(const FrameSlots& slots, const FrameMoment& moment,
 // A few blocks of the first frame that the law needs and of which none have been read.
 void SurfaceLevel::readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
   constexpr int kBlocksAtOnce = 8;
-  Weighed all;
-  weighBy(time_, slots, moment, all);
+  WeighedFrames all;
+  all.weigh(time_, slots, moment, moment);
   ControlGrid::Frames& frames = all.frames;
   frames.wanted &= ~grid_.slotsRead();
   frames.wanted &= ~frames.wanted + 1;

@@ -9,6 +9,7 @@
 #include "app/depth_window/felt_scale.h"
 #include "app/haptics/method/control_grid.h"
 #include "app/haptics/method/frame_weights.h"
+#include "app/haptics/method/weighed_frames.h"
 #include "platform/realtime.h"
 
 namespace relievo {
@@ -18,14 +19,6 @@ struct SurfacePoint {
   double z = 0;
   double zx = 0, zy = 0;
   double zxx = 0, zxy = 0, zyy = 0;
-};
-
-// The cache slot of each frame of the window.
-struct FrameSlots {
-  const SurfaceWindow* window = nullptr;
-  std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
-  std::array<std::uint8_t, ControlGrid::kFrames> frame{};
-  std::uint32_t in_use = 0;  // one bit per slot
 };
 
 // The surface of one smoothing width: a view of one moment, prepared in the tick before.
@@ -90,18 +83,13 @@ class SurfaceLevel {
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
   void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
-  // Frames with their weights at a moment, by a law.
-  struct Weighed {
-    FrameMoment moment;
-    TimeLaw law = TimeLaw::Hold;
-    ControlGrid::Frames frames;
-    alignas(16) ControlGrid::Weights added{};  // weights of what TimeLaw::Adapted may add
-  };
-  void weigh(const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
-  void weighBy(TimeLaw law, const FrameSlots& slots, const FrameMoment& moment, Weighed& out) const RELIEVO_RT;
+  void weigh(const FrameSlots& slots, const FrameMoment& moment, const FrameMoment& later,
+             WeighedFrames& out) const RELIEVO_RT;
   // The points so weighted; carried forward if the window says so.
-  void blend(const FrameSlots& slots, const Weighed& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
-  void addWhereUnsteady(const Weighed& weighed, const Cell& cell, Patch& out) const RELIEVO_RT;
+  void blend(const FrameSlots& slots, const WeighedFrames& weighed, const Cell& cell, Patch& out) RELIEVO_RT;
+  void addWhereUnsteady(const WeighedFrames& weighed, const Cell& cell, Patch& out) const RELIEVO_RT;
+  void addWhereUnsteady(const Patch& added, Patch& out) const RELIEVO_RT;
+  void blendBoth(const FrameSlots& slots, const FrameMoment& later, const Cell& cell, Patch& then) RELIEVO_RT;
   void readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
   [[nodiscard]] bool staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
 
@@ -112,7 +100,7 @@ class SurfaceLevel {
 
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;
-  Weighed weighed_;
+  WeighedFrames weighed_;
   bool is_weighed_ = false;  // for `moment_`: done on first use
   CellPatch patch_;
   std::array<CellPatch, 2> frame_patch_;  // of the present frame and of the next one
