@@ -82,6 +82,16 @@ Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
   return describe(halves->depth, depth_look, seen->color, color);
 }
 
+// The size of the colour beside packed depth.
+Result<void> PairReader::Impl::measureHalves() {
+  if (!isPacked() || info.packing == Packing::DepthAlone) return {};
+  const auto halves = halvesOf(color_ahead[0]);
+  if (!halves) return failOn(options.url, halves.error());
+  info.color_width = halves->color.width;
+  info.color_height = halves->color.height;
+  return {};
+}
+
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);

@@ -63,6 +63,7 @@ struct PairReader::Impl {
   void lookForCode(const Frame& first);
   Result<void> describeAlone(const StreamInfo& track);
   Result<void> describeHalves(const StreamInfo& color);
+  Result<void> measureHalves();
   Result<void> describeTrack(const Frame& first);
   void takeTags(const StreamInfo& stream);
   Result<void> describe(const Frame& first, const Frame& look, const Frame& color, const StreamInfo& stream);
@@ -96,6 +97,10 @@ struct PairReader::Impl {
     return told;
   }
   [[nodiscard]] bool isPacked() const noexcept { return relievo::isPacked(info.packing); }
+  // The colour's picture holds the depth or a second view as well.
+  [[nodiscard]] bool isInOnePicture() const noexcept {
+    return isPacked() || isStereo(info.packing) || info.packing == Packing::StereoLayers;
+  }
   [[nodiscard]] bool isLoss(const Error& error) const noexcept {
     using enum ErrorCode;
     return remote && (error.code == Lost || error.code == Timeout || error.code == Io);

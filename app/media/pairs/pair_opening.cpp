@@ -54,7 +54,8 @@ void PairReader::Impl::takeFilmOverDepth() {
   options.depth_url = pair->depth;
 }
 
-// Opens for the first time or again. In the second case a separate depth source has continued meanwhile.
+// Opens for the first time or again. In the second case a separate depth source has continued meanwhile, and what one
+// picture holds beside its colour stays: its first picture may be dark now, and its tags may come later.
 Result<void> PairReader::Impl::openFilm() {
   takeFilmOverDepth();
   const bool two_sources = !options.depth_url.empty();
@@ -66,11 +67,11 @@ Result<void> PairReader::Impl::openFilm() {
   }
   if (auto opened = openReader(); !opened) return opened;
   const MediaSource& source = sources.color()->source();
-  if (!depth) lookAround();
+  const bool known = depth || isInOnePicture();
+  if (!known) lookAround();
   const auto plan = planFilm();
   if (!plan) return failOn(options.url, plan.error());
-  const bool were_views = depth && info.packing == Packing::StereoTracks;
-  info.packing = were_views ? Packing::StereoTracks : plan->packing;
+  if (!known || info.packing == Packing::Tracks) info.packing = plan->packing;
   info.duration = source.duration();
   info.container_start = source.senderStart().value_or(Duration(0));
   info.notes = source.notes();
@@ -91,13 +92,14 @@ Result<void> PairReader::Impl::openFilm() {
   if (auto selected = selectDepth(plan->depth, *plan->color); !selected) return selected;
   const auto of_places = plan->material ? std::optional(asTold(*plan->material)) : std::nullopt;
   material.select(*sources.color(), of_places, color_shift);
-  info.material_scale = withoutThoseOf(options.material, material.scale());
+  if (!known || info.has_depth) info.material_scale = withoutThoseOf(options.material, material.scale());
   if (sources.depth())
     info.notes.insert(info.notes.end(), sources.depth()->notes().begin(), sources.depth()->notes().end());
   countTracks(*plan);
   openSound();
   openWords();
   if (auto opened = openColor(*plan->color); !opened) return opened;
+  if (known && isInOnePicture()) return measureHalves();
   if (auto opened = openDepth(*plan->color); !opened) return opened;
   if (isStereo(options.packing)) checkViews(*plan->color);
   takeDepthFromViews();

@@ -110,7 +110,7 @@ Result<TrackPlan> PairReader::Impl::planFilm() {
   const MediaSource& source = sources.color()->source();
   const bool two_sources = !options.depth_url.empty();
   const KnownKind *const as = options.as, *const place = clues.place.kind;
-  auto plan = planTracks(source, options.packing, two_sources);
+  auto plan = planTracks(source, isInOnePicture() ? info.packing : options.packing, two_sources);
   if (!plan) return plan;
   if (exchange == Exchange::Done && plan->depth != nullptr) {
     std::swap(plan->color, plan->depth);

@@ -146,6 +146,35 @@ TEST(PairReader, DepthOfAThreadOfItsOwnIsPairedLikeAnyOther) {
   EXPECT_EQ(reader.counters().mismatched, 0u);
 }
 
+// Colour on the left, depth on the right; dark after the loss.
+TEST(PairReader, ALiveFilmOfHalvesKeepsThemWhenItComesBackDark) {
+  MockFilm film;
+  film.color = live(60);
+  film.color.tracks[0].model = ColorModel::Yuv;
+  film.color.tracks[0].sample = [](int, int component, int c, int r) -> std::uint16_t {
+    const bool left = component == 0 ? c < 80 : c < 40;
+    if (component > 0) return left ? static_cast<std::uint16_t>(component == 1 ? 60 : 200) : 128;
+    return static_cast<std::uint16_t>(40 + (left ? 2 * (r % 50) : 2 * (c - 80)));
+  };
+  film.depth = film.color;
+  film.depth.tracks[0].sample = [](int, int component, int, int) -> std::uint16_t { return component > 0 ? 128 : 0; };
+  film.color.lose_after_packets = 20;
+  ASSERT_TRUE(film.reader.open({.url = "film"}).has_value());
+  ASSERT_EQ(film.reader.info().packing, Packing::SideBySide);
+  Result<std::optional<FramePair>> pair = film.reader.next();
+  while (pair) pair = film.reader.next();
+  ASSERT_TRUE(film.reader.isSourceLost(pair.error()));
+  for (int i = 0; i < 2; ++i) {
+    ASSERT_TRUE(film.reader.reopen().has_value());
+    EXPECT_EQ(film.reader.info().packing, Packing::SideBySide);
+    EXPECT_EQ(film.reader.info().color_width, 80);
+    pair = film.reader.next();
+    ASSERT_TRUE(pair && *pair);
+    EXPECT_EQ((*pair)->color.width, 80);
+    EXPECT_EQ((*pair)->depth.width, 80);
+  }
+}
+
 TEST(PairReader, ALiveFilmThatCannotSeekGoesOnWhereItWas) {
   MockFilm film;
   film.color.live = true;
