@@ -33,9 +33,10 @@ using namespace ffmpeg;
 constexpr Duration kFlowPatience = std::chrono::seconds(3);  // for a real-time stream
 constexpr Duration kNap = std::chrono::milliseconds(2);      // between retries after AVERROR(EAGAIN)
 constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save it to a file first";
-constexpr std::size_t kTagPackets = 512;      // searched for a key frame of each stream
-constexpr std::size_t kFlowTagPackets = 128;  // of a real-time stream: about as many as opening has read
-constexpr int kDamagedReads = 64;             // in a row, until a broken container counts as ended
+constexpr std::size_t kTagPackets = 512;  // searched for a key frame of each stream
+// In a real-time stream: relievo-author's key frames are up to two seconds apart.
+constexpr Duration kFlowTagTime = std::chrono::milliseconds(2500);
+constexpr int kDamagedReads = 64;  // in a row, until a broken container counts as ended
 // A longer gap in the times counts as a jump and is closed. A shorter one is lost data: the player waits for its
 // length, unless the stream is in real time, where that time has already passed.
 constexpr Duration kLongestGap = std::chrono::seconds(10);
@@ -79,16 +80,9 @@ class FfmpegSource final : public MediaSource {
   // kept; FFmpeg has read most of them already.
   void readStreamTags() {
     stream_tags_.clear();
-    std::map<int, const AVStream*> wanted;
-    for (unsigned i = 0; i < context_->nb_streams; ++i) {
-      const AVStream& stream = *context_->streams[i];
-      if (saysDepth(stream.metadata) || saysDepth(context_->metadata)) return;
-      if (kindOf(stream) == StreamKind::Video && mayCarryTags(stream.codecpar->codec_id)) {
-        wanted[stream.index] = &stream;
-      }
-    }
-    const std::size_t most = address_.flows() ? kFlowTagPackets : kTagPackets;
-    while (!wanted.empty() && ahead_.size() < most) {
+    auto wanted = streamsWithTags(*context_);
+    std::optional<MediaTime> begin;
+    while (!wanted.empty() && ahead_.size() < kTagPackets) {
       PacketPtr packet(av_packet_alloc());
       if (!packet || input_.readFrame(*context_, *packet) < 0) return;  // `readPacket` gets the error again
       const auto found = wanted.find(packet->stream_index);
@@ -96,11 +90,13 @@ class FfmpegSource final : public MediaSource {
         stream_tags_[found->first] = streamTags(*packet, *found->second->codecpar);
         wanted.erase(found);
       }
+      const auto time = timeOf(packet->dts, *context_->streams[packet->stream_index]);
+      const bool leads = packet->stream_index == leading_stream_;
       ahead_.push_back(std::move(packet));
+      if (!leads || !time || !address_.flows()) continue;
+      if (!begin) begin = time;
+      if (*time - *begin > kFlowTagTime) return;
     }
-  }
-  static bool saysDepth(const AVDictionary* tags) noexcept {
-    return av_dict_get(tags, "DEPTH_", nullptr, AV_DICT_IGNORE_SUFFIX) != nullptr;
   }
 
   Result<Description> describe() const {

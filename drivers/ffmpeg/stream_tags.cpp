@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/views/view_layers.h"
 #include "hal/media/media_names.h"
 #include "hal/media/stream_tags.h"
@@ -88,6 +89,14 @@ void addMessages(Bytes data, Tags& tags) {
   }
 }
 
+bool saysDepth(const AVDictionary* tags) noexcept {
+  return av_dict_get(tags, "DEPTH_", nullptr, AV_DICT_IGNORE_SUFFIX) != nullptr;
+}
+
+bool mayCarryTags(AVCodecID codec) noexcept {
+  return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_HEVC;
+}
+
 }  // namespace
 
 void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit) {
@@ -118,8 +127,14 @@ std::vector<std::uint8_t> withoutPrevention(Bytes bytes) {
   return plain;
 }
 
-bool mayCarryTags(AVCodecID codec) noexcept {
-  return codec == AV_CODEC_ID_H264 || codec == AV_CODEC_ID_HEVC;
+std::map<int, const AVStream*> streamsWithTags(const AVFormatContext& container) {
+  std::map<int, const AVStream*> found;
+  if (saysDepth(container.metadata)) return found;
+  for (const AVStream* const stream : std::span(container.streams, container.nb_streams)) {
+    if (saysDepth(stream->metadata)) return {};
+    if (kindOf(*stream) == StreamKind::Video && mayCarryTags(stream->codecpar->codec_id)) found[stream->index] = stream;
+  }
+  return found;
 }
 
 Tags streamTags(const AVPacket& packet, const AVCodecParameters& parameters) {

@@ -11,6 +11,7 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
 }
 
 namespace relievo::ffmpeg {
@@ -23,8 +24,8 @@ void eachUnitByStartCode(Bytes data, const std::function<void(Bytes)>& visit);
 // What the bytes of a unit mean: without its emulation prevention bytes.
 [[nodiscard]] std::vector<std::uint8_t> withoutPrevention(Bytes bytes);
 
-// Whether streams of this codec may carry tags.
-[[nodiscard]] bool mayCarryTags(AVCodecID codec) noexcept;
+// The streams of a container that may carry tags, by index; none if the container has tags of depth of its own.
+[[nodiscard]] std::map<int, const AVStream*> streamsWithTags(const AVFormatContext& container);
 
 // The tags in `packet`, a key frame; keys in upper case. Of two views in two layers also kLayersTag. Empty if there are
 // none, and for other codecs.

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the FFmpeg source may open, errors of a network, and interruption.
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -14,10 +12,10 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/refusal.h"
-#include "platform/unique_fd.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
 #include "tests/support/network/http_server.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
@@ -134,24 +132,6 @@ TEST_F(Playlists, OfOtherKindsAreForFilesAlone) {
   EXPECT_EQ(refused.code, ErrorCode::Unsupported);
   EXPECT_THAT(refused.message, HasSubstr("forbidden to network sources"));
 }
-
-// A server on the loopback interface that sends the test's answers.
-struct Server {
-  UniqueFd listener{::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-  std::string url;
-
-  Server() {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t length = sizeof address;
-    EXPECT_EQ(::bind(listener.get(), reinterpret_cast<sockaddr*>(&address), length), 0);
-    EXPECT_EQ(::listen(listener.get(), 4), 0);
-    EXPECT_EQ(::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &length), 0);
-    url = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port)) + "/film.mkv";
-  }
-  [[nodiscard]] UniqueFd accept() const { return UniqueFd(::accept(listener.get(), nullptr, nullptr)); }
-};
 
 // What a server answers to everything, and the error message for it.
 TEST(FfmpegSource, EachKindOfNetworkErrorHasItsSentence) {
