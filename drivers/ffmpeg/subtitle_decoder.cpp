@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Subtitle decoder on libavcodec: every coding of text becomes lines of Advanced SubStation, pictures become RGBA.
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -16,6 +17,8 @@ using namespace ffmpeg;
 
 constexpr const char* kNoMemory = "out of memory in the subtitle decoder";
 constexpr std::uint32_t kForever = 0xffffffff;  // FFmpeg's value for an unknown end
+// Text in binary codes, which a byte that is no UTF-8 belongs to.
+constexpr std::array kCodedText{AV_CODEC_ID_MOV_TEXT, AV_CODEC_ID_EIA_608, AV_CODEC_ID_ARIB_CAPTION};
 
 // Old files without a mark of their encoding: each byte that is no UTF-8 is taken for Latin-1.
 bool isUtf8(const std::uint8_t* data, std::size_t bytes) noexcept {
@@ -82,7 +85,7 @@ class FfmpegSubtitleDecoder final : public SubtitleDecoder {
 
   std::optional<Subtitle> decode(const Packet& packet) override {
     if (packet.bytes == 0 || !packet.pts || !fillPacket(*packet_, packet, time_base_)) return std::nullopt;
-    if (text_ && !isUtf8(packet.data, packet.bytes) && context_->codec_id != AV_CODEC_ID_MOV_TEXT) recode(packet);
+    if (text_ && !isUtf8(packet.data, packet.bytes)) recode(packet);
     AVSubtitle made{};
     int found = 0;
     const Duration length(std::max<std::int64_t>(packet_->duration, 0));
@@ -113,7 +116,8 @@ class FfmpegSubtitleDecoder final : public SubtitleDecoder {
                         avcodec_open2(context_.get(), codec, nullptr) >= 0;
     if (!opened) return fail(ErrorCode::Corrupt, "the subtitles' parameters are invalid; convert them");
     context_->pkt_timebase = kNanosecond;
-    text_ = (avcodec_descriptor_get(parameters.codec_id)->props & AV_CODEC_PROP_TEXT_SUB) != 0;
+    text_ = (avcodec_descriptor_get(parameters.codec_id)->props & AV_CODEC_PROP_TEXT_SUB) != 0 &&
+            std::ranges::find(kCodedText, parameters.codec_id) == kCodedText.end();
     const auto* const head = reinterpret_cast<const char*>(context_->subtitle_header);
     styles_ = std::make_shared<const std::string>(
         head == nullptr ? std::string() : std::string(head, static_cast<std::size_t>(context_->subtitle_header_size)));

@@ -172,5 +172,25 @@ TEST_F(FilmWords, OfAFilmOfManyBytesASeekReadsTheLastLinesOnly) {
   EXPECT_THAT(wordsAfterASeek(2.5, "-c:v rawvideo -s 640x480"), ElementsAre("2.4-3 Near"));
 }
 
+TEST(SubtitleDecoder, ClosedCaptionsAreNotTakenForLatin1) {
+  StreamInfo stream;
+  stream.kind = StreamKind::Subtitle;
+  stream.codec = "eia_608";
+  const auto decoder = makeFfmpegSubtitleDecoder();
+  ASSERT_TRUE(decoder->open(stream));
+  std::string words;
+  double time_s = 0;
+  // CTA-608, with odd parity: pop-on captions, the last row, "HI", show; clear.
+  for (const std::string codes : {"\xfc\x94\x20\xfc\x94\x70\xfc\xc8\x49\xfc\x94\x2f", "\xfc\x94\x2c"}) {
+    Packet packet;
+    packet.data = reinterpret_cast<const std::uint8_t*>(codes.data());
+    packet.bytes = codes.size();
+    packet.pts = mediaTime(time_s++);
+    const auto subtitle = decoder->decode(packet);
+    if (subtitle && !subtitle->lines.empty()) words += subtitle->lines[0];
+  }
+  EXPECT_THAT(words, HasSubstr("HI"));
+}
+
 }  // namespace
 }  // namespace relievo
