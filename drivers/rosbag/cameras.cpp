@@ -34,13 +34,27 @@ std::optional<std::string> streamOf(const std::string& topic) {
   return topic.substr(0, topic.size() - kEnd.size());
 }
 
+bool isRectified(const std::string& image) {
+  return image.substr(image.find_last_of('/') + 1).starts_with("image_rect");
+}
+
+// A camera's message describes its raw pictures. Those that were rectified have the intrinsics of P, and no distortion.
+CameraMessage asRectified(CameraMessage camera) {
+  const auto& p = camera.projection;
+  camera.intrinsics = {p[0], p[1], p[2], p[4], p[5], p[6], p[8], p[9], p[10]};
+  camera.distortion.clear();
+  return camera;
+}
+
 std::optional<CameraMessage> cameraOf(BagFile& bag, const Topic& topic) {
   const std::string image = topic.compressed ? parentOf(topic.name) : topic.name;
   const auto stream = streamOf(topic.name);
   for (const std::string& name : {stream.value_or("") + "/info/camera_info", parentOf(image) + "/camera_info"}) {
     const auto connection = findTopic(bag, name);
     const auto message = connection ? firstMessage(bag, *connection) : std::nullopt;
-    if (message) return parseCamera(*message);
+    if (!message) continue;
+    auto camera = parseCamera(*message);
+    return camera && isRectified(image) ? asRectified(*camera) : camera;
   }
   return std::nullopt;
 }

@@ -62,6 +62,8 @@ std::optional<CameraMessage> parseCamera(Bytes message) {
   if (count > kMostCoefficients) return std::nullopt;
   for (std::uint32_t i = 0; i < count; ++i) camera.distortion.push_back(reader.value<double>());
   for (double& value : camera.intrinsics) value = reader.value<double>();
+  for (int i = 0; i < 9; ++i) static_cast<void>(reader.value<double>());  // R: how a stereo camera's views were turned
+  for (double& value : camera.projection) value = reader.value<double>();
   return reader.ok() ? std::optional(camera) : std::nullopt;
 }
 

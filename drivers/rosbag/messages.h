@@ -29,12 +29,13 @@ struct PictureMessage {
 // The stamp of any message that begins with a std_msgs/Header.
 [[nodiscard]] std::optional<Duration> parseStamp(Bytes message);
 
-// sensor_msgs/CameraInfo. `intrinsics` is the matrix K, row by row.
+// sensor_msgs/CameraInfo. `intrinsics` is the matrix K, row by row, `projection` the matrix P of rectified pictures.
 struct CameraMessage {
   std::uint32_t cols = 0, rows = 0;
   std::string model;
   std::vector<double> distortion;
   std::array<double, 9> intrinsics{};
+  std::array<double, 12> projection{};
 };
 [[nodiscard]] std::optional<CameraMessage> parseCamera(Bytes message);
 

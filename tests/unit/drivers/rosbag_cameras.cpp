@@ -73,7 +73,8 @@ BagCamera colorCamera(const std::string& model) {
           .center_x = 23,
           .center_y = 16,
           .model = model,
-          .distortion = {0.1, -0.2, 0.001, 0.002, 0.03}};
+          .distortion = {0.1, -0.2, 0.001, 0.002, 0.03},
+          .projection = {55, 0, 22, 0, 0, 56, 15, 0, 0, 0, 1, 0}};
 }
 
 // Points of a reference go to the depth camera by 10 mm, to the colour camera by a quarter turn and (50, 20, 0) mm:
@@ -115,13 +116,14 @@ TEST_F(RosbagSource, RealSensesCamerasRegisterTheDepth) {
 // Both cameras hang on a base: the depth camera 100 mm to the right, the colour camera there and 30 mm lower, with a
 // quarter turn.
 TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
-  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame, BagImage z = depthImage(0)) {
+  const auto tagsOf = [&](const std::string& lens, const std::string& color_frame, BagImage z = depthImage(0),
+                          const std::string& color = "image_raw") {
     BagWriter bag;
     BagImage picture = colorImage(0);
     z.frame = "depth_optical";
     picture.frame = color_frame;
     bag.write(bag.connect("/cam/depth/image_raw", "sensor_msgs/Image"), 1, bagImage(z));
-    bag.write(bag.connect("/cam/rgb/image_raw", "sensor_msgs/Image"), 1, bagImage(picture));
+    bag.write(bag.connect("/cam/rgb/" + color, "sensor_msgs/Image"), 1, bagImage(picture));
     bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(kDepthCamera));
     bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(colorCamera(lens)));
     const auto frames = bag.connect("/tf_static", "tf2_msgs/TFMessage");
@@ -145,6 +147,16 @@ TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
   const auto of_metres = parseRegistration(tagsOf("plumb_bob", "color_optical", metres).at("DEPTH_REGISTRATION"));
   ASSERT_TRUE(of_metres) << of_metres.error().message;
   EXPECT_EQ(of_metres->unit_mm, 1000);
+
+  const auto rectified = parseRegistration(
+      tagsOf("plumb_bob", "color_optical", depthImage(0), "image_rect_color").at("DEPTH_REGISTRATION"));
+  ASSERT_TRUE(rectified) << rectified.error().message;
+  EXPECT_EQ(rectified->color.focal_x, 55);
+  EXPECT_EQ(rectified->color.focal_y, 56);
+  EXPECT_EQ(rectified->color.center_x, 22);
+  EXPECT_EQ(rectified->color.center_y, 15);
+  EXPECT_EQ(rectified->color.distortion, Lens::Coefficients{});
+  EXPECT_EQ(rectified->depth.focal_y, 31) << "which was not rectified";
   EXPECT_FALSE(tagsOf("equidistant", "color_optical").contains("DEPTH_REGISTRATION")) << "another lens model";
   EXPECT_FALSE(tagsOf("plumb_bob", "elsewhere").contains("DEPTH_REGISTRATION"));
   EXPECT_FALSE(tagsOf("plumb_bob", "depth_optical").contains("DEPTH_REGISTRATION")) << "in the colour's view already";

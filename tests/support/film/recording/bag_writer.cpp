@@ -54,7 +54,8 @@ std::string bagCameraInfo(const BagCamera& camera) {
   for (const double k : {camera.focal_x, 0.0, camera.center_x, 0.0, camera.focal_y, camera.center_y, 0.0, 0.0, 1.0}) {
     message.add(k);
   }
-  for (int i = 0; i < 9 + 12; ++i) message.add(0.0);          // R, P
+  for (int i = 0; i < 9; ++i) message.add(0.0);  // R
+  for (const double p : camera.projection) message.add(p);
   for (int i = 0; i < 6; ++i) message.add(std::uint32_t{0});  // binning, region
   return message.add(std::uint8_t{0}).bytes();
 }

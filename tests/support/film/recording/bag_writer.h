@@ -30,6 +30,7 @@ struct BagCamera {
   double focal_x = 0, focal_y = 0, center_x = 0, center_y = 0;
   std::string model = "plumb_bob";
   std::vector<double> distortion = std::vector<double>(5);
+  std::array<double, 12> projection{};  // of rectified pictures
 };
 [[nodiscard]] std::string bagCameraInfo(const BagCamera& camera);
 // geometry_msgs/Transform; rotation: x, y, z, w.
