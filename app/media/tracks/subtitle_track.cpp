@@ -11,6 +11,8 @@ namespace relievo {
 namespace {
 
 constexpr std::size_t kMostBytesBefore = std::size_t{8} << 20;  // a USB stick with 30 MB/s needs .3 s for them
+constexpr int kTriesBefore = 3;
+constexpr Duration kLeastBefore = std::chrono::milliseconds(250);
 
 }  // namespace
 
@@ -56,21 +58,29 @@ void SubtitleTrack::restart() {
 }
 
 void SubtitleTrack::readBefore(MediaSource& source, int leading, MediaTime target) {
-  while (stream_ >= 0 && before_ > Duration(0) && target > MediaTime{}) {
-    const MediaTime from = std::max(MediaTime{}, target - before_);
+  if (stream_ < 0 || before_ == Duration(0) || target <= MediaTime{}) return;
+  Duration before = before_;
+  for (int tries = 0; tries < kTriesBefore; ++tries, before = std::min(before / 2, before_)) {
+    const MediaTime from = std::max(MediaTime{}, target - before);
     waiting_.clear();
     if (!source.seek(from)) return;
-    MediaTime reached = from;
+    std::optional<MediaTime> first;
+    MediaTime reached;
     for (std::size_t bytes = 0; bytes < kMostBytesBefore;) {
       auto packet = source.read();
       if (!packet || !*packet) return;
       bytes += (*packet)->bytes;
       const auto time = (*packet)->dts ? (*packet)->dts : (*packet)->pts;
-      if ((*packet)->stream == leading && time) reached = *time;
+      if ((*packet)->stream == leading && time) {
+        reached = *time;
+        if (!first) first = reached;
+      }
       if (reached >= target) return;
       if ((*packet)->stream == stream_) keep(std::move(**packet));
     }
-    before_ = std::min(before_ / 2, reached - from);
+    // From a key frame on, which may be long before `from`: what so many bytes last, and not how far they came.
+    const Duration covered = reached - first.value_or(reached);
+    before_ = std::min(before_, std::max(covered / 2, kLeastBefore));
   }
 }
 

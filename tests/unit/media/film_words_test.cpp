@@ -61,7 +61,7 @@ class FilmWords : public testing::Test {
     }
     return words;
   }
-  std::vector<std::string> wordsAfterASeek(double target_s, const std::string& pictures);
+  std::vector<std::string> wordsAfterASeek(double target_s, const std::string& pictures, double earlier_s = 0);
 
   TemporaryFolder folder_;
   SourceOptions source_;
@@ -141,9 +141,10 @@ TEST_F(FilmWords, TracksChaptersAndLanguagesInTheFilm) {
   EXPECT_THAT(readAll(reader), IsEmpty());
 }
 
-// The subtitle lines after a seek to `target_s` in a film that the ffmpeg program makes of film.mkv, with the options
-// `pictures`, and a.srt. Every picture is a key frame, so that no line is read along with the pictures of the seek.
-std::vector<std::string> FilmWords::wordsAfterASeek(double target_s, const std::string& pictures) {
+// The subtitle lines after a seek to `target_s`, and one to `earlier_s` before it, in a film that the ffmpeg program
+// makes of film.mkv, with the options `pictures`, and a.srt. Every picture is a key frame, so that no line is read
+// along with the pictures of the seek.
+std::vector<std::string> FilmWords::wordsAfterASeek(double target_s, const std::string& pictures, double earlier_s) {
   const std::string folder = folder_ / "";
   const std::string command =
       "cd " + folder + " && ffmpeg -v error -i film.mkv -i a.srt -map 0 -map 1 -c:s srt " + pictures + " all.mkv";
@@ -151,6 +152,8 @@ std::vector<std::string> FilmWords::wordsAfterASeek(double target_s, const std::
   PairReader reader(backends());
   EXPECT_TRUE(reader.open({.url = folder_ / "all.mkv", .subtitle_languages = "und"}));
   reader.chooseTracks(std::nullopt, 0);
+  EXPECT_TRUE(reader.seek(mediaTime(earlier_s)));
+  takeWords(reader);
   EXPECT_TRUE(reader.seek(mediaTime(target_s)));
   auto words = takeWords(reader);
   const auto pair = reader.next();
@@ -170,6 +173,15 @@ TEST_F(FilmWords, ALineThatRunsWhereASeekLandsIsRead) {
 TEST_F(FilmWords, OfAFilmOfManyBytesASeekReadsTheLastLinesOnly) {
   write("a.srt", "1\n00:00:01,000 --> 00:00:03,900\nLong\n\n2\n00:00:02,400 --> 00:00:03,000\nNear\n");
   EXPECT_THAT(wordsAfterASeek(2.5, "-c:v rawvideo -s 640x480"), ElementsAre("2.4-3 Near"));
+}
+
+// Before 2 s lie two seconds without a key frame, of which 8 MiB are .7 s.
+TEST_F(FilmWords, ALongWayFromAKeyFrameDoesNotEndTheReadingOfLinesBeforeSeeks) {
+  write("a.srt", "1\n00:00:02,300 --> 00:00:03,000\nNear\n");
+  const std::string pictures =
+      "-vf scale=640x480,noise=alls=100:allf=t -c:v libx264 -preset ultrafast -qp 1 -g 999 -t 3 "
+      "-sc_threshold 0 -force_key_frames 2.2,2.4";
+  EXPECT_THAT(wordsAfterASeek(2.5, pictures, 2), ElementsAre("2.3-3 Near"));
 }
 
 TEST(SubtitleDecoder, ClosedCaptionsAreNotTakenForLatin1) {
