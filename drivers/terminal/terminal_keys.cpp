@@ -20,6 +20,7 @@ constexpr Sequence kSequences[] = {
     {"F", KEY_END},  {"1~", KEY_HOME}, {"4~", KEY_END},  {"5~", KEY_PAGEUP}, {"6~", KEY_PAGEDOWN},
     {"P", KEY_F1},   {"Q", KEY_F2},    {"R", KEY_F3},    {"S", KEY_F4},      {"11~", KEY_F1},
     {"12~", KEY_F2}, {"13~", KEY_F3},  {"14~", KEY_F4},  {"15~", KEY_F5},    {"17~", KEY_F6},
+    {"[A", KEY_F1},  {"[B", KEY_F2},   {"[C", KEY_F3},   {"[D", KEY_F4},     {"[E", KEY_F5},
 };
 struct Character {
   char character;
@@ -34,9 +35,10 @@ constexpr Character kCharacters[] = {
     {'@', KEY_2 | kWithShift},
 };
 
-// The final byte of a sequence is its first one at or above '@'.
+// The final byte of a sequence is its first one at or above '@', after the second [ that the kernel's console sends.
 std::string_view takeSequence(std::string_view& bytes) noexcept {
-  const auto last = std::ranges::find_if(bytes, [](char c) { return c >= '@'; });
+  const auto last =
+      std::find_if(bytes.begin() + (bytes.starts_with('[') ? 1 : 0), bytes.end(), [](char c) { return c >= '@'; });
   const auto length = static_cast<std::size_t>(last - bytes.begin()) + (last == bytes.end() ? 0 : 1);
   const std::string_view sequence = bytes.substr(0, length);
   bytes.remove_prefix(length);

@@ -100,6 +100,7 @@ TEST(TerminalKeys, AreThoseOfTheKernel) {
   EXPECT_EQ(keysOf("[]#?<>+"),
             (Keys{KEY_LEFTBRACE, KEY_RIGHTBRACE, KEY_NUMERIC_POUND, KEY_QUESTION, KEY_PREVIOUS, KEY_NEXT, KEY_KPPLUS}));
   EXPECT_EQ(keysOf("\x1bOP\x1bOR\x1b[15~"), (Keys{KEY_F1, KEY_F3, KEY_F5}));
+  EXPECT_EQ(keysOf("\x1b[[A\x1b[[EA\x1b[["), (Keys{KEY_F1, KEY_F5, KEY_A | kWithShift}));
   // Unknown sequences do not swallow the keys after them.
   EXPECT_EQ(keysOf("\x1b[1;5Cq\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
   EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
