@@ -12,7 +12,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 4> kStartCode{0, 0, 0, 1};
-constexpr int kAvcSequenceSet = 7, kHevcSequenceSet = 33;  // types of units
+constexpr std::array<std::uint8_t, 3> kShortStartCode{0, 0, 1};
+constexpr int kAvcSlice = 1, kAvcKeySlice = 5, kAvcSequenceSet = 7, kHevcSequenceSet = 33;  // types of units
 
 // Reads bytes in order; beyond the end it returns 0 and sets `ok` to false.
 struct Reader {
@@ -96,6 +97,17 @@ CodingProfile hevcProfile(Bytes set) noexcept {
 
 }  // namespace
 
+bool isAvcKey(Bytes units) noexcept {
+  for (;;) {
+    const auto code = std::search(units.begin(), units.end(), kShortStartCode.begin(), kShortStartCode.end());
+    if (units.end() - code < 4) return false;
+    const int type = code[3] & 0x1f;
+    if (type == kAvcSequenceSet || type == kAvcKeySlice) return true;
+    if (type == kAvcSlice) return false;
+    units = {code + 3, units.end()};
+  }
+}
+
 Result<AnnexB> AnnexB::make(const StreamInfo& stream) {
   AnnexB form;
   form.codec_ = stream.codec == "h264" ? Codec::H264 : stream.codec == "hevc" ? Codec::Hevc : Codec::Other;
@@ -140,9 +152,8 @@ void AnnexB::addUnit(Bytes unit) {
 
 // The first sequence parameter set, from its header on, and all after it. `units` have start codes.
 Bytes AnnexB::sequenceSetIn(Bytes units) const noexcept {
-  constexpr std::array<std::uint8_t, 3> kCode{0, 0, 1};
   for (auto at = units.begin();; ++at) {
-    at = std::search(at, units.end(), kCode.begin(), kCode.end());
+    at = std::search(at, units.end(), kShortStartCode.begin(), kShortStartCode.end());
     if (units.end() - at < 8) return {};
     const int type = codec_ == Codec::H264 ? at[3] & 0x1f : at[3] >> 1 & 0x3f;
     if (type == (codec_ == Codec::H264 ? kAvcSequenceSet : kHevcSequenceSet)) return {at + 3, units.end()};

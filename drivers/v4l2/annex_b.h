@@ -19,6 +19,9 @@ struct CodingProfile {
   bool plain = false;  // 8 bits, 4:2:0
 };
 
+// True if decoding can begin at a packet of H.264 with start codes: it has a sequence set or an IDR picture.
+[[nodiscard]] bool isAvcKey(std::span<const std::uint8_t> units) noexcept;
+
 // For H.264 and HEVC (ISO/IEC 14496-10 and 23008-2, annex B of each). MP4 and Matroska put a length before each unit
 // and store the parameter sets separately (ISO/IEC 14496-15). Transport streams and other codecs need no conversion.
 class AnnexB {

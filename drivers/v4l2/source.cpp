@@ -3,6 +3,7 @@
 #include <deque>
 #include <utility>
 
+#include "drivers/v4l2/annex_b.h"
 #include "drivers/v4l2/camera.h"
 #include "drivers/v4l2/stream.h"
 #include "drivers/v4l2/v4l2.h"
@@ -65,7 +66,7 @@ class V4l2Source final : public MediaSource {
     packet.data = picture.data;
     packet.bytes = picture.bytes;
     packet.pts = packet.dts = MediaTime(picture.taken - begin_);
-    packet.keyframe = true;
+    packet.keyframe = camera_.format().fourcc != V4L2_PIX_FMT_H264 || isAvcKey({picture.data, picture.bytes});
     packet.owner = std::move(picture.owner);
     queue_.push_back(packet);
     if (!camera_.format().depth) return;

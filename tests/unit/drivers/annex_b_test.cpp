@@ -54,6 +54,17 @@ TEST(AnnexB, WhatHasStartCodesStaysAsItIs) {
   EXPECT_EQ(written(formOf("fwht", {1, 2, 3, 4, 5}), packet, true, true), packet);
 }
 
+TEST(AnnexB, ACamerasKeyPicturesAreToldFromOthers) {
+  const Bytes slice{0, 0, 1, 0x41, 7}, key{0, 0, 1, 0x65, 1, 2}, delimiter{0, 0, 0, 1, 9, 0xf0};
+  EXPECT_TRUE(isAvcKey(key));
+  EXPECT_TRUE(isAvcKey(delimiter + key));
+  EXPECT_TRUE(isAvcKey(delimiter + kAvcSets + slice)) << "a picture that is refreshed by parts";
+  EXPECT_FALSE(isAvcKey(slice));
+  EXPECT_FALSE(isAvcKey(delimiter + slice + key)) << "no key slice comes behind another";
+  EXPECT_FALSE(isAvcKey(delimiter));
+  EXPECT_FALSE(isAvcKey({}));
+}
+
 TEST(AnnexB, DamagedAndLargePacketsAreRefused) {
   const AnnexB form = formOf("h264", kAvc);
   EXPECT_FALSE(written(form, {0, 9, 0x41}, false, false)) << "shorter than it says";
