@@ -144,7 +144,8 @@ int M2mBuffers::take(Done& done) noexcept {
           .bytes = form.multi() ? form.planes[0].bytesused : form.buffer.bytesused,
           .tag = seconds * kMicroseconds + static_cast<std::uint64_t>(form.buffer.timestamp.tv_usec),
           .damaged = (form.buffer.flags & V4L2_BUF_FLAG_ERROR) != 0,
-          .last = (form.buffer.flags & V4L2_BUF_FLAG_LAST) != 0};
+          .last = (form.buffer.flags & V4L2_BUF_FLAG_LAST) != 0,
+          .field = form.buffer.field};
   const std::scoped_lock lock(mutex_);
   buffers_[done.index].where = Where::Here;
   return 0;

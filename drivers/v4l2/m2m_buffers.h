@@ -39,6 +39,7 @@ class M2mBuffers {
     std::size_t bytes = 0;  // in the first plane
     std::uint64_t tag = 0;
     bool damaged = false, last = false;
+    std::uint32_t field = V4L2_FIELD_ANY;  // of a picture
   };
 
   // `type`: a V4L2_BUF_TYPE. Picture buffers are exported as dma-bufs if the driver can.

@@ -60,7 +60,10 @@ void arrange(Frame& frame, const Arrangement& a) noexcept {
 void signal(Frame& frame, const Told& t, const StreamInfo& stream) noexcept {
   frame.range = stream.range;
   frame.matrix = stream.matrix;
+  frame.primaries = stream.primaries;
+  frame.transfer = stream.transfer;
   frame.sample_aspect = stream.sample_aspect;
+  frame.top_field_first = stream.fields != FieldOrder::BottomBottom && stream.fields != FieldOrder::TopBottom;
   if (frame.range == ColorRange::Unspecified && t.range == V4L2_QUANTIZATION_FULL_RANGE) frame.range = ColorRange::Full;
   if (frame.range == ColorRange::Unspecified && t.range == V4L2_QUANTIZATION_LIM_RANGE) {
     frame.range = ColorRange::Limited;
@@ -88,6 +91,13 @@ Frame PictureLayout::placeAt(const std::array<const std::uint8_t*, 3>& data,
     placed.dma_bufs[i] = {dma_bufs[memory[i]], static_cast<std::uint32_t>(offset[i])};
   }
   return crop(placed, visible.left, visible.top, static_cast<int>(visible.width), static_cast<int>(visible.height));
+}
+
+void setFields(Frame& frame, std::uint32_t field) noexcept {
+  frame.interlaced =
+      field == V4L2_FIELD_INTERLACED || field == V4L2_FIELD_INTERLACED_TB || field == V4L2_FIELD_INTERLACED_BT;
+  if (!frame.interlaced || field == V4L2_FIELD_INTERLACED_TB) frame.top_field_first = true;
+  if (field == V4L2_FIELD_INTERLACED_BT) frame.top_field_first = false;
 }
 
 std::optional<PictureLayout> layoutOf(const v4l2_format& format, std::optional<v4l2_rect> visible,

@@ -31,6 +31,8 @@ struct PictureLayout {
   [[nodiscard]] Frame placeAt(const std::array<const std::uint8_t*, 3>& data,
                               const std::array<int, 3>& dma_bufs) const noexcept;
 };
+// `field`: a V4L2_FIELD. Before, `frame` says which field is first where the driver does not.
+void setFields(Frame& frame, std::uint32_t field) noexcept;
 // nullopt for an unsupported format or an impossible answer. The stream's colour signalling overrides the driver's.
 [[nodiscard]] std::optional<PictureLayout> layoutOf(const v4l2_format& format, std::optional<v4l2_rect> visible,
                                                     const StreamInfo& stream) noexcept;

@@ -88,6 +88,7 @@ int PictureQueue::take(Taken& taken) {
   taken = {.frame = {}, .tag = done.tag, .damaged = done.damaged, .last = done.last};
   if (done.bytes > 0 && !done.damaged) {
     taken.frame = pictureIn(done.index);
+    setFields(taken.frame, done.field);
   } else {
     buffers_->giveBack(done.index);
   }
