@@ -79,6 +79,26 @@ TEST(RenderFormats, WhatNoTextureHoldsIsRefusedAndThePictureBeforeStays) {
   expectBars(stage.again(), 3);
 }
 
+TEST(RenderFormats, WithWhatIsRefusedTheReliefAndTheOtherViewStayToo) {
+  STAGE_OR_SKIP(stage, 640, 180);
+  const Scene before{.color = makeYuvFrame(320, 180, {.name = ""}),
+                     .depth = makePlane(4, 4, 8, 255),
+                     .volume = kVolume,
+                     .stereo = {.layout = StereoLayout::SideBySide},
+                     .right = makePlane(320, 180, 8, 200)};
+  const Image shown = stage.show(before);
+  Scene refused = before;
+  refused.depth = makePlane(4, 4, 8, 0);
+  const Frame wide = makePlane(100'000, 1, 8, 90);
+  for (const auto& [color, right] : {std::pair(wide, before.right), {makePlane(320, 180, 8, 20), wide}}) {
+    refused.color = color;
+    refused.right = right;
+    refused.error_px *= 2;  // so that the triangles are made again
+    EXPECT_FALSE(stage.tryShow(refused));
+    EXPECT_LT(stage.again().meanDifference(shown), 0.01);
+  }
+}
+
 TEST(RenderFormats, AThousandRenderersLeaveNoGlObject) {
   const ManualClock clock;
   const auto display = makeOffscreenDisplay({}, clock);

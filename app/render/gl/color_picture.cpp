@@ -82,17 +82,17 @@ const char* ColorPicture::sampling(Arrangement arrangement) noexcept {
 
 Result<void> ColorPicture::check(const Frame& frame) noexcept {
   if (auto arrangement = arrangementOf(frame); !arrangement) return std::unexpected(arrangement.error());
-  return {};
-}
-
-Result<void> ColorPicture::setFrame(const Frame& frame) {
-  const auto arrangement = arrangementOf(frame);
-  if (!arrangement) return std::unexpected(arrangement.error());
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (std::max(frame.width, frame.height) > largest) {
     return fail(ErrorCode::Unsupported, "the picture is larger than this GL driver's textures; use a smaller video");
   }
+  return {};
+}
+
+Result<void> ColorPicture::setFrame(const Frame& frame) {
+  if (auto drawable = check(frame); !drawable) return drawable;
+  const auto arrangement = arrangementOf(frame);
   if (*arrangement != Arrangement::Scattered) {
     auto prepared = gpu_.prepare(sampling(*arrangement) + sdrDefines(frame.transfer, frame.primaries));
     if (!prepared) return prepared;

@@ -30,9 +30,9 @@ class ColorPicture {
   enum class Converter : std::uint8_t { Automatic, Gpu, Cpu };  // imported planes are always converted by the GPU
   explicit ColorPicture(Converter converter = Converter::Automatic) noexcept : converter_(converter) {}
 
-  // Accepts whole samples of 8 to 16 bits, wherever they lie; Unsupported for anything else. GL reads planar and
-  // semi-planar YUV, packed and planar RGB, and gray; SeenColor reads the rest (packed 4:2:2 of webcams, gray beside
-  // alpha).
+  // Accepts whole samples of 8 to 16 bits, wherever they lie, of a picture that a texture can hold; Unsupported for
+  // anything else. GL reads planar and semi-planar YUV, packed and planar RGB, and gray; SeenColor reads the rest
+  // (packed 4:2:2 of webcams, gray beside alpha). Needs the GL context.
   [[nodiscard]] static Result<void> check(const Frame& frame) noexcept;
 
   // Takes the planes of a frame that passes `check`: 8 bits unchanged, from dma-bufs without a copy if the GL driver
