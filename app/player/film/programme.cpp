@@ -28,8 +28,8 @@ Result<std::size_t> Programme::spread(const std::vector<PlaylistEntry>& films) {
   const auto last = resume_ && lists_ == 1 ? resume_->last() : std::nullopt;
   if (!last) return present_;
   const auto is_last = [&](const PlaylistEntry& entry) { return Resume::keyOf(entry.url) == *last; };
-  const auto seen = std::ranges::find_if(films_, is_last);
-  return seen == films_.end() ? present_ : static_cast<std::size_t>(seen - films_.begin());
+  const auto seen = std::ranges::find_if(films, is_last);
+  return present_ + (seen == films.end() ? 0 : static_cast<std::size_t>(seen - films.begin()));
 }
 
 void Programme::choose(std::size_t film, Way way) noexcept {

@@ -153,5 +153,13 @@ TEST_F(ProgrammeWithPlaces, AListBeginsWithTheFilmSeenLast) {
   EXPECT_EQ(programme.spread(films({"http://a", "http://b", "http://c"})), 1U);
 }
 
+TEST_F(ProgrammeWithPlaces, AListAfterTheFilmSeenLastBeginsWithItsOwnFirst) {
+  Programme programme(path_, writer(), false);
+  programme.begin(films({"http://a", "list", "http://d"}));
+  programme.keepAtOnce(mediaTime(30), kStart);
+  programme.choose(1, Way::Forward);
+  EXPECT_EQ(programme.spread(films({"http://b", "http://c"})), 1U);
+}
+
 }  // namespace
 }  // namespace relievo
