@@ -160,9 +160,9 @@ bool PlayReport::addFault(double time_s, std::string what, std::string done) {
     ++faults.back().count;
     return false;
   }
-  constexpr std::size_t kMost = 1000;  // of a film that loops for months
-  if (faults.size() >= kMost) return false;
   const bool known = std::any_of(faults.begin(), faults.end(), [&](const FaultEntry& f) { return f.what == what; });
+  constexpr std::size_t kMost = 1000;  // of a film that loops for months; a fault of another name is kept even then
+  if (known && faults.size() >= kMost) return false;
   faults.push_back({time_s, std::move(what), std::move(done)});
   return !known;
 }

@@ -101,6 +101,16 @@ TEST(Report, CountsAFaultThatComesAgainAndAgainInOneEntry) {
   EXPECT_EQ(faults[2]["time_s"], 4.0);
 }
 
+TEST(Report, AFaultOfAnotherNameIsNewAfterMonthsOfOldOnesToo) {
+  PlayReport r;
+  for (int i = 0; i < 1000; ++i) r.addFault(i, i % 2 == 0 ? "lost" : "back", "x");
+  EXPECT_FALSE(r.addFault(1000, "lost", "x"));
+  EXPECT_TRUE(r.addFault(1001, "haptic device lost", "x"));
+  EXPECT_FALSE(r.addFault(1002, "lost", "x"));
+  EXPECT_FALSE(r.addFault(1003, "haptic device lost", "x"));
+  EXPECT_EQ(r.faults.size(), 1001u);
+}
+
 TEST(Report, IsJsonWhateverItIsGiven) {
   PlayReport r = example();
   r.source = "caf\xe9 \"quoted\".mkv";  // Latin-1, as old file names are
