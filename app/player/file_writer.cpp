@@ -21,7 +21,7 @@ bool FileWriter::give(const std::string& name, std::function<void()> write) {
     return true;
   }
   const auto waits = name.empty() ? jobs_.end() : std::ranges::find(jobs_, name, &Job::name);
-  if (waits == jobs_.end() && jobs_.size() == kMost) return false;
+  if (name.empty() && jobs_.size() >= kMost) return false;
   if (waits != jobs_.end()) waits->write = std::move(write);
   else jobs_.push_back({name, std::move(write)});
   wake_.notify_all();

@@ -22,7 +22,7 @@ namespace relievo {
 // `give` and `finish`: from one thread.
 class FileWriter {
  public:
-  static constexpr std::size_t kMost = 8;                             // waiting
+  static constexpr std::size_t kMost = 8;                             // waiting, before one without a name
   static constexpr Duration kLastPatience = std::chrono::seconds(2);  // at the end, for all of them
   enum class Where : std::uint8_t { OwnThread, AtOnce };              // AtOnce: within `give`, for simulated time
 
@@ -33,7 +33,8 @@ class FileWriter {
 
   // Never waits. `write` is called soon, after those queued before it, and reports its own failure. It must own all
   // that it uses, and access the file system only through platform/files, so that it can be cancelled. A waiting write
-  // with the same name is replaced; writes with an empty name are not. False if too many wait, or after `finish`.
+  // with the same name is replaced, so that there is always room for one; writes with an empty name are not. False
+  // after `finish`, or without a name if too many wait.
   bool give(const std::string& name, std::function<void()> write);
   // Waits until all is written, at most for kLastPatience: whatever is not written by then fails with Cancelled.
   void finish();

@@ -96,7 +96,6 @@ void Resume::forget(const std::string& url) {
 
 void Resume::changed() {
   if (path_.empty()) return;
-  // A newer write replaces a waiting one, so that there is always room for it.
   files_.give(path_, [path = path_, films = films_, state = state_] {
     const auto written = write(path, films);
     state->kept = written.has_value();

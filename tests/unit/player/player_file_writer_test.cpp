@@ -58,6 +58,17 @@ TEST(FileWriter, RefusesWhatNeverEndsToWait) {
   EXPECT_EQ(busy.written, "d" + std::string(FileWriter::kMost - 1, 'b'));
 }
 
+TEST(FileWriter, HasRoomForANamedWriteWhateverElseWaits) {
+  BusyWriter busy;
+  for (std::size_t i = 0; i < FileWriter::kMost; ++i) EXPECT_TRUE(busy.give("", "b"));
+  EXPECT_TRUE(busy.give("places", "p"));
+  EXPECT_TRUE(busy.give("volume", "v"));
+  EXPECT_FALSE(busy.give("", "c"));
+  busy.released.count_down();
+  busy.files.finish();
+  EXPECT_EQ(busy.written, std::string(FileWriter::kMost, 'b') + "pv");
+}
+
 TEST(FileWriter, ItsEndDoesNotWaitForADeadDisk) {
   auto dead = std::make_shared<std::latch>(1);  // the question is left behind
   std::optional<ErrorCode> first, second;
