@@ -5,9 +5,10 @@
 namespace relievo {
 
 void SeekTimes::asked(MediaTime target, bool by_viewer, MonotonicTime now) {
-  waits_ = by_viewer ? Waits::Picture : Waits::Nothing;
+  const bool measured = by_viewer && entries_.size() < kMost;
+  waits_ = measured ? Waits::Picture : Waits::Nothing;
   asked_ = now;
-  if (by_viewer) entries_.push_back({toSeconds(target), {}, {}, {}, {}});
+  if (measured) entries_.push_back({toSeconds(target), {}, {}, {}, {}});
 }
 
 void SeekTimes::shown(MediaTime picture, MonotonicTime now, MonotonicTime touch_from) {

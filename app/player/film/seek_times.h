@@ -2,6 +2,7 @@
 // Measures how long after each of the viewer's seeks the first picture and the first touch come. Pure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -22,7 +23,10 @@ struct SeekEntry {
 
 class SeekTimes {
  public:
-  // A seek to `target` begins. A seek that the viewer did not ask for ends a running measurement and gets no entry.
+  static constexpr std::size_t kMost = 1000;  // the first ones, of a run that lasts for months
+
+  // A seek to `target` begins. A seek that the viewer did not ask for, or one too many, ends a running measurement and
+  // gets no entry.
   void asked(MediaTime target, bool by_viewer, MonotonicTime now);
   // The picture of time `picture` was on the screen at `now`. Ticks before `touch_from` still felt the old surface.
   void shown(MediaTime picture, MonotonicTime now, MonotonicTime touch_from);

@@ -30,6 +30,17 @@ TEST(SeekTimes, CountFromTheKeyToThePictureAndToTheFirstTouchOnIt) {
   EXPECT_DOUBLE_EQ(seek.surface_ms.value_or(0), 32);
 }
 
+TEST(SeekTimes, OfMonthsTheFirstAreKept) {
+  SeekTimes seeks;
+  for (int i = 0; i < 1000; ++i) seeks.asked(mediaTime(10), true, at(1000));
+  seeks.asked(mediaTime(20), true, at(2000));
+  seeks.shown(mediaTime(20), at(2030), at(2031));
+  seeks.felt(at(2032), mediaTime(20));
+  ASSERT_EQ(seeks.entries().size(), 1000U);
+  EXPECT_EQ(seeks.entries().back().target_s, 10);
+  EXPECT_EQ(seeks.entries().back().picture_s, std::nullopt) << "another seek's";
+}
+
 TEST(SeekTimes, OneThatTheViewerDidNotAskForIsNotCounted) {
   SeekTimes seeks;
   seeks.asked(mediaTime(10), true, at(1000));
