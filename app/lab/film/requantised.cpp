@@ -94,9 +94,9 @@ void HeightErrorSum::add(const HeightField& felt, const HeightField& truth) {
       if (std::isnan(error)) continue;  // a hole
       squares_ += error * error;
       largest_ = std::max(largest_, error);
+      ++count_;
     }
   }
-  count_ += static_cast<double>(truth.rows()) * truth.cols();
 }
 
 }  // namespace relievo

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/lab/film/depth_rendering.h"
+#include "app/lab/film/requantised.h"
+#include "tests/support/film/depth_frames.h"
 
 namespace relievo {
 namespace {
@@ -100,6 +102,17 @@ TEST(CodedDepth, RefusesWhatItCannotCode) {
   EXPECT_FALSE(codeDepth(film, 23));
   std::vector<Frame> sizes{renderDepth(*s, {.cols = 32, .rows = 32}, 0), renderDepth(*s, {.cols = 64, .rows = 32}, 1)};
   EXPECT_FALSE(codeDepth(sizes, 23));
+}
+
+TEST(HeightErrorSum, ASampleWithoutAReadingCountsForNothing) {
+  const DisplayVolume volume{100, 100, 40};
+  const Frame exact = test::makeGrayFrame(4, 1, 8, MediaTime{}, [](int, int) { return 128; });
+  const Frame coded = test::makeGrayFrame(4, 1, 8, MediaTime{}, [](int c, int) { return c < 3 ? 0 : 138; });
+  HeightErrorSum heights;
+  heights.add(*HeightField::make(coded, {.invalid = *CodeSet::parse("0")}, volume),
+              *HeightField::make(exact, {}, volume));
+  EXPECT_NEAR(heights.rms(), 40 * 10 / 255.0, 1e-9);
+  EXPECT_NEAR(heights.largest(), 40 * 10 / 255.0, 1e-9);
 }
 
 }  // namespace
