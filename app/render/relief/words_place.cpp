@@ -12,6 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr double kFarthest = -std::numeric_limits<double>::infinity();
+constexpr double kNearest = 0.9;  // of the way from the screen to the eyes: a deep relief reaches beyond them
 
 double eyesOf(const StereoSettings& stereo) noexcept {
   return std::abs(stereo.strength * stereo.eye_distance_mm);
@@ -24,7 +25,7 @@ struct Seen {
   double height_mm = kFarthest;  // of the nearest corner, over the screen plane
 
   void add(double x, double y, double z, const StereoSettings& stereo) noexcept {
-    const double height = z - stereo.screen_z_mm;
+    const double height = std::min(z - stereo.screen_z_mm, kNearest * stereo.viewing_distance_mm);
     const double scale = stereo.viewing_distance_mm / (stereo.viewing_distance_mm - height);
     left = std::min(left, scale * x), right = std::max(right, scale * x);
     bottom = std::min(bottom, scale * y), top = std::max(top, scale * y);

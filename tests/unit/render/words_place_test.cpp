@@ -234,6 +234,15 @@ TEST(WordsPlace, NeverStandsBehindEvenIfItMustJump) {
   EXPECT_EQ(words.lifted(), 1u);
 }
 
+TEST(WordsPlace, AReliefThatReachesTheEyesIsNearerThanAnyOther) {
+  for (const double z : {kStereo.screen_z_mm + kStereo.viewing_distance_mm, 700.0}) {
+    WordsPlace words;
+    wallAt(z).follow(words);
+    EXPECT_GT(words.disparity(), disparityOf(500)) << z;
+    EXPECT_TRUE(std::isfinite(words.disparity())) << z;
+  }
+}
+
 TEST(WordsPlace, OtherWordsStandAtTheirPlaceAtOnce) {
   WordsPlace words;
   wallAt(40).follow(words);
