@@ -245,6 +245,18 @@ TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens
   EXPECT_EQ(open["has_depth"], true);
 }
 
+TEST_F(PlayerAndPrograms, APartWithinAPictureIsNotRepeated) {
+  bench_.config.duration = std::chrono::seconds(20);
+  at(1.010, "ab-loop");
+  at(1.020, "ab-loop");
+  at(5, "ab-loop");
+  at(5.5, "ab-loop");
+  at(6.8, "ab-loop");
+  play();
+  const std::string again = " seeking buffering playing";
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing" + again + again + again + again + " ended idle");
+}
+
 TEST_F(PlayerAndPrograms, AFilmThatAListMayNotNameIsPassedOver) {
   bench_.config.source.url = "list.m3u";
   bench_.config.stays = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "hal/media/media_time.h"
 
@@ -19,10 +20,14 @@ class LoopAB {
   void forget() noexcept {
     from_.reset();
     to_.reset();
+    went_back_ = false;
   }
-  // The position to continue from if `here` is at the part's end or behind it; nullopt before that.
-  [[nodiscard]] std::optional<MediaTime> backFrom(std::optional<MediaTime> here) const noexcept {
-    return to_ && here && *here >= *to_ ? from_ : std::nullopt;
+  // Call once a round while the film plays. The position to continue from if `here` is at the part's end or behind it;
+  // nullopt before that. A part in which no picture begins is forgotten: from its beginning the film goes on behind it.
+  [[nodiscard]] std::optional<MediaTime> backFrom(std::optional<MediaTime> here) noexcept {
+    const bool behind = to_ && here && *here >= *to_;
+    if (std::exchange(went_back_, behind) && behind) forget();
+    return behind ? from_ : std::nullopt;
   }
 
   [[nodiscard]] std::optional<MediaTime> from() const noexcept { return from_; }
@@ -30,6 +35,7 @@ class LoopAB {
 
  private:
   std::optional<MediaTime> from_, to_;
+  bool went_back_ = false;  // the last round
 };
 
 }  // namespace relievo
