@@ -71,6 +71,7 @@ void Player::nextWords(double number, MonotonicTime now) {
   const std::size_t count = info.subtitles.size(), none = count;
   const bool back = number == kPreviousTrack;
   std::size_t next = none;
+  if (number > static_cast<double>(count)) return;
   if (number > 0) next = static_cast<std::size_t>(number) - 1;
   else if ((number == 0 || back) && info.words && !words_shown_) next = *info.words;
   else if (number == 0 || back) next = (info.words.value_or(none) + (back ? count : 1)) % (count + 1);
