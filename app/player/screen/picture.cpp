@@ -258,6 +258,7 @@ std::optional<Picture::ViewPoint> Picture::viewPoint(double across, double down)
 }
 
 TextFrame Picture::textFrame() const {
+  if (width_ <= 0 || height_ <= 0) return {};
   const EyeViews eyes = eyeViews(stereo_, volume_, width_, height_);
   const PixelArea& area = eyes.views[0].area;
   return {area.width, area.height, eyes.aspect, eyes.margin_x, eyes.margin_y};

@@ -111,7 +111,7 @@ class Picture {
     double aspect = 1;  // of the view
   };
   [[nodiscard]] std::optional<ViewPoint> viewPoint(double across, double down) const;
-  // A view, for what is written over it.
+  // A view, for what is written over it; without sizes as long as there was no surface.
   [[nodiscard]] TextFrame textFrame() const;
   [[nodiscard]] const RenderStatistics& statistics() const noexcept { return statistics_; }
 
