@@ -18,6 +18,7 @@
 #include "app/cli/read_files.h"
 #include "app/media/film_folder.h"
 #include "drivers/registry.h"
+#include "hal/media/video_decoder.h"
 #include "platform/clock.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
@@ -92,10 +93,9 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
 }
 
 DepthSize depthSize(const std::string& word) {
-  constexpr double kMost = 16384;
   std::array<double, 2> size{};
-  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 2 || std::max(size[0], size[1]) > kMost) {
-    throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, such as 518x294"}});
+  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 2 || size[0] * size[1] > VideoDecoder::kMostSamples) {
+    throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, up to 4096x4096"}});
   }
   return {static_cast<int>(size[0]), static_cast<int>(size[1])};
 }

@@ -22,8 +22,10 @@ namespace relievo {
 namespace {
 
 constexpr double kLongestDurationS = 1e9;
-constexpr double kMostPixels = 16384;  // of a display, across and down
-constexpr const char* kNoSize = "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384, such as 1280x720";
+constexpr double kMostPixels = 16384;             // of a display, across and down
+constexpr double kMostOfDisplay = 8192.0 * 8192;  // pixels in all: a quilt of the largest screens
+constexpr const char* kNoSize =
+    "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384 and 67 million in all, such as 1280x720";
 constexpr const char* kStereoHelp =
     "How the picture is shown\n"
     "mono: one picture; sbs, tab: left and right eye side by side, or one above the other,\n"
@@ -57,7 +59,8 @@ void addSources(CLI::App& command, PlayOptions& play) {
 
 DisplayConfig readSize(const std::string& word) {
   std::array<double, 2> size{};
-  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > kMostPixels) {
+  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 1 || std::max(size[0], size[1]) > kMostPixels ||
+      size[0] * size[1] > kMostOfDisplay) {
     throw WordFailure({"--size " + word, {ErrorCode::InvalidArgument, 0, kNoSize}});
   }
   return {.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
