@@ -16,9 +16,9 @@ namespace relievo {
 class FeedNews {
  public:
   struct Item {
-    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted };
+    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted, SoundRefused };
     Kind kind;
-    const char* why = "";   // cause of a loss or a restart
+    const char* why = "";   // cause of a loss, a restart or a refusal
     const char* done = "";  // what a restart did
     MonotonicTime time;
   };
@@ -33,6 +33,8 @@ class FeedNews {
   void restarted(const VideoDecoder::Restart& restart, MonotonicTime now) {
     items_.push_back({Kind::DecoderRestarted, restart.why, restart.done, now});
   }
+  // The sound that was chosen cannot be decoded.
+  void soundRefused(const char* why, MonotonicTime now) { items_.push_back({Kind::SoundRefused, why, "", now}); }
   // The next event, in order, each once.
   [[nodiscard]] std::optional<Item> take() {
     if (items_.empty()) return std::nullopt;

@@ -92,6 +92,7 @@ void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::s
   info_ = reader_.info();
   sound_.forget();
   sound_.may_come = hasSound();
+  if (info_.sound_refused != nullptr) news_.soundRefused(info_.sound_refused, now());
   takeWords(std::move(read));
 }
 

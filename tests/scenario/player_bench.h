@@ -54,6 +54,7 @@ class PlayerBench {
   std::function<std::unique_ptr<HapticDevice>(Clock&)> make_second;  // of a second finger
   std::function<std::unique_ptr<MediaSource>()> make_source;         // of real films, with a decoder for them
   std::function<std::unique_ptr<VideoDecoder>()> make_decoder = [] { return makeMockDecoder({.max_held_frames = 32}); };
+  decltype(PairReader::Backends::make_audio_decoder) make_audio_decoder = makeMockAudioDecoder;
   std::vector<ScriptedKey> keys;
   PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
   bool with_haptic = true;
@@ -126,7 +127,7 @@ class PlayerBench {
               if (text == texts.end()) return fail(ErrorCode::NotFound, "no such text");
               return text->second;
             },
-            .make_audio_decoder = makeMockAudioDecoder};
+            .make_audio_decoder = make_audio_decoder};
   }
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/media/pairs/long_wait.h"
+#include "app/media/tracks/film_tracks.h"
 #include "app/player/film/film_changes.h"
 #include "platform/log.h"
 #include "platform/print.h"
@@ -35,12 +36,15 @@ void FilmNotes::opened(const FilmInfo& info) {
   for (const std::string& offer : info.reading.offers) log(LogLevel::Info, "play", "%s", offer.c_str());
   for (const std::string& doubt : info.reading.doubts) log(LogLevel::Warning, "play", "%s", doubt.c_str());
   if (!info.has_depth) journal_.note("no depth in this film", "it plays flat, without force");
-  if (info.sound_refused != nullptr) {
-    journal_.note(std::string("sound: ") + info.sound_refused, "the film plays without");
-  }
+  if (info.sound_refused != nullptr) refusedSound(info, info.sound_refused);
 }
 
-void FilmNotes::happened(const FilmFeed::News& news) {
+void FilmNotes::refusedSound(const FilmInfo& info, const char* why) {
+  const std::string track = info.sounds.size() > 1 ? " " + describeTrack(info.sounds, info.sound) : "";
+  journal_.note("sound" + track + ": " + why, "the film plays without");
+}
+
+void FilmNotes::happened(const FilmFeed::News& news, const FilmInfo& info) {
   using Kind = FilmFeed::News::Kind;
   const bool color = news.kind == Kind::ColorLost || news.kind == Kind::ColorBack;
   const std::string& url = color || depth_url_.empty() ? url_ : depth_url_;
@@ -58,6 +62,8 @@ void FilmNotes::happened(const FilmFeed::News& news) {
       return journal_.note(url + " found again", "its depth is felt again", news.time);
     case Kind::DecoderRestarted:
       return journal_.note(news.why, news.done, news.time);
+    case Kind::SoundRefused:
+      return refusedSound(info, news.why);
   }
 }
 

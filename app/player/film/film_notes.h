@@ -24,8 +24,8 @@ class FilmNotes {
   // The film is still being opened: a long wait is reported once.
   void waits(MonotonicTime now);
   void opened(const FilmInfo& info);
-  // A source was lost or found again, or a decoder was restarted.
-  void happened(const FilmFeed::News& news);
+  // A source was lost or found again, a decoder was restarted, or the sound that was chosen cannot be decoded.
+  void happened(const FilmFeed::News& news, const FilmInfo& info);
   // A seek that the source refused.
   void refused(const Error& seek);
   [[nodiscard]] bool refusesSeeks() const noexcept { return refuses_seeks_; }
@@ -35,6 +35,8 @@ class FilmNotes {
   std::vector<LostPart> missing(const PairCounters& pairs);
 
  private:
+  void refusedSound(const FilmInfo& info, const char* why);
+
   Journal& journal_;
   std::string url_, depth_url_;
   bool slowness_told_ = false, wait_told_ = false, refuses_seeks_ = false;

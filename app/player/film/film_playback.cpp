@@ -286,7 +286,7 @@ std::optional<MediaTime> FilmPlayback::placeToKeep(MonotonicTime now) const {
 void FilmPlayback::noteNews() {
   while (const auto news = feed_.takeNews()) {
     if (news->kind == FilmFeed::News::Kind::ColorBack) jumped_ = true;  // in case the picture had stopped meanwhile
-    notes_.happened(*news);
+    notes_.happened(*news, info_);
   }
 }
 

@@ -16,6 +16,19 @@ namespace {
 using namespace std::chrono_literals;
 using testing::IsEmpty;
 
+class DeafDecoder final : public AudioDecoder {
+ public:
+  [[nodiscard]] const char* name() const noexcept override { return "deaf"; }
+
+ private:
+  Result<void> openDecoder(const StreamInfo&, const AudioFormat&) override {
+    return fail(ErrorCode::Unsupported, "it is deaf");
+  }
+  Result<AudioChunk> decodePacket(const Packet&) override { return AudioChunk{}; }
+  void flushDecoder() noexcept override {}
+  void closeDecoder() noexcept override {}
+};
+
 TEST_F(PlayerSound, IsHeardWithItsPicturesFromTheFirstToTheLast) {
   film(100);
   playsWell();
@@ -73,6 +86,24 @@ TEST_F(PlayerSound, AnotherTrackIsHeardFromWhereTheFilmIs) {
   EXPECT_NEAR(*last.heard_s - 500, 0.04 * 145, 0.05);
   EXPECT_EQ(bench_.report.sound.underruns, 0u);
   EXPECT_EQ(bench_.report.film.sound, std::optional<std::size_t>(1)) << "that of the report too";
+}
+
+TEST_F(PlayerSound, ATrackThatCannotBeDecodedIsToldWhenItIsChosen) {
+  bench_.config.keys = KeyTable::parse("[always]\nA = \"audio\"\n", "keys").value();
+  film(150);
+  bench_.sources["film"].tracks.push_back(PlayerBench::soundTrack(150));
+  bench_.make_audio_decoder = [made = 0]() mutable -> std::unique_ptr<AudioDecoder> {
+    if (++made == 2) return std::make_unique<DeafDecoder>();
+    return makeMockAudioDecoder();
+  };
+  bench_.press(2.0, KEY_A);
+  bench_.press(4.0, KEY_A);
+  playsWell();
+  ASSERT_EQ(bench_.report.faults.size(), 1u);
+  EXPECT_EQ(bench_.report.faults[0].what, "sound 2 of 2: it is deaf");
+  EXPECT_NEAR(bench_.report.faults[0].time_s, 2.0, 0.1);
+  EXPECT_EQ(bench_.report.faults[0].count, 1u) << "not for the first track again";
+  EXPECT_TRUE(moments_[moments_.size() - 5].heard_s) << "the first track again";
 }
 
 TEST_F(PlayerSound, SoundThatIsLongerThanThePicturePlaysToItsEnd) {
