@@ -43,7 +43,7 @@ Player::Player(PlayerConfig config, PlayerParts parts)
   film_.soundOutput().setGain(loudness_.gain());
   if (config_.browser) browser_.emplace(*config_.browser, parts_.posters, config_.source, config_.own_threads);
   parts_.display.hearMouse([this](const SurfaceMouse& mouse) { return hearMouse(mouse); });
-  screen_.text().setHelpKey(helpKey());
+  nameKeys();
   journal_.stateChanged(state_);
   film_.hearLive([this](const FramePair& pair) { touch_.hear(pair.depth, pair.material); });
 }

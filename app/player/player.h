@@ -123,6 +123,7 @@ class Player {
   void obeyKey(const PlayerCommand& command, std::uint16_t code, MonotonicTime now);
   void noteUnbound(const KeyEvent& key, MonotonicTime now);
   [[nodiscard]] std::string helpKey() const;
+  void nameKeys();
   [[nodiscard]] ScreenRows keyRows() const;
 
   // player_facts.cpp: what is told

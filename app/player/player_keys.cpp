@@ -33,7 +33,7 @@ void Player::readRemote(MonotonicTime now) {
   const bool has_pad = parts_.remote != nullptr && parts_.remote->hasPad();
   if (has_pad != has_pad_) {
     has_pad_ = has_pad;
-    screen_.text().setHelpKey(helpKey());
+    nameKeys();
   }
   while (parts_.remote != nullptr) {
     const auto key = parts_.remote->poll(now);
@@ -107,6 +107,10 @@ void Player::noteUnbound(const KeyEvent& key, MonotonicTime now) {
 // The key that shows all keys: with a gamepad the gamepad's, since it is in the viewer's hands.
 std::string Player::helpKey() const {
   return config_.keys.keyFor(PlayerVerb::Keys, PlayerState::Playing, has_pad_ ? KeyBoard::Pad : config_.held);
+}
+
+void Player::nameKeys() {
+  screen_.text().setKeyNames(helpKey(), has_pad_ ? padLabel(BTN_SOUTH) : "Enter or OK");
 }
 
 ScreenRows Player::keyRows() const {

@@ -18,6 +18,15 @@ constexpr double kPosterLeft = kMargin + 10, kPosterTop = 5, kPosterWidth = 148,
 constexpr double kTextLeft = kPosterLeft + kPosterWidth + 24;
 constexpr double kTitle = 26, kTitleLine = 31, kDetail = 22, kDetailLine = 28;
 constexpr double kRail = 8;  // width of the scroll bar
+constexpr double kFootTop = 680, kFootSize = 22;
+
+double footWidth(const std::string& words) noexcept {
+  return kLetterOfSize * kFootSize * static_cast<double>(words.size());
+}
+
+std::string helpWords(const std::string& help_key) {
+  return help_key.empty() ? "" : help_key + ": all keys";
+}
 
 void addHeading(Script& script, const ScreenListRow& row) {
   const auto line = folded(row.title, cellsIn(script.width() - 2 * kMargin, 26), 1);
@@ -63,16 +72,17 @@ void addRail(Script& script, const ScreenList& list) {
   script.box({x, ScreenList::kTop + kHeight * list.before, kRail, kHeight * list.shown}, kWhite, 0.45);
 }
 
-void addFoot(Script& script, const ScreenList& list, const std::string& help_key) {
-  constexpr double kTop = 680, kSize = 22, kWide = 700;
-  if (!help_key.empty()) script.text(help_key + ": all keys", 9, script.width() - kMargin, kTop, kSize, kGray);
-  if (list.films == 0 || script.width() < kWide) return;
-  script.text("Up and down choose, Enter or OK plays", 7, kMargin, kTop, kSize, kGray);
+void addFoot(Script& script, const ScreenList& list, const ListKeys& keys) {
+  constexpr double kGap = 24;
+  const std::string help = helpWords(keys.help), choose = "Up and down choose, " + keys.choose + " plays";
+  script.text(help, 9, script.width() - kMargin, kFootTop, kFootSize, kGray);
+  const bool fits = footWidth(choose) + kGap + footWidth(help) <= script.width() - 2 * kMargin;
+  if (list.films > 0 && fits) script.text(choose, 7, kMargin, kFootTop, kFootSize, kGray);
 }
 
 }  // namespace
 
-void addList(Script& script, const ScreenList& list, const std::string& help_key) {
+void addList(Script& script, const ScreenList& list, const ListKeys& keys) {
   script.box({0, 0, script.width(), kScreenRows}, kBackground, 1);
   script.text("Films", 7, kMargin, kHeadingTop, kHeadingSize);
   if (list.films > 0) {
@@ -91,7 +101,7 @@ void addList(Script& script, const ScreenList& list, const std::string& help_key
   for (std::size_t i = 0; i < message.size(); ++i) {
     script.text(message[i], 5, 0.5 * script.width(), 340 + 40.0 * static_cast<double>(i), 30);
   }
-  addFoot(script, list, help_key);
+  addFoot(script, list, keys);
 }
 
 // Each in the middle of its place, in its own shape.

@@ -12,8 +12,11 @@
 
 namespace relievo {
 
-// `help_key`: the key that shows all keys.
-void addList(Script& script, const ScreenList& list, const std::string& help_key);
+// The keys that the list's foot names.
+struct ListKeys {
+  std::string help, choose;  // show all keys; play the selected film
+};
+void addList(Script& script, const ScreenList& list, const ListKeys& keys);
 // The posters of the list's rows, for a view of `frame`, to be drawn over the result of `addList`.
 [[nodiscard]] std::vector<TextPicture> postersOf(const ScreenList& list, const TextFrame& frame);
 // The film at a place of the view, `across` and `down` from 0 to 1; nullopt if none is there.

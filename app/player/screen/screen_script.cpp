@@ -156,7 +156,7 @@ std::string screenHead(double aspect) {
 std::vector<std::string> screenLines(const ScreenContent& content, double aspect, int view_height) {
   Script page(kScreenRows * aspect);
   if (content.list) {
-    addList(page, *content.list, content.help_key);
+    addList(page, *content.list, {.help = content.help_key, .choose = content.choose_key});
     return page.take();
   }
   if (!content.keys.empty()) {

@@ -101,6 +101,11 @@ void ScreenText::turnPage(int by) noexcept {
   keys_page_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(wished, 0, std::max<std::ptrdiff_t>(last, 0)));
 }
 
+void ScreenText::setKeyNames(std::string help, std::string choose) {
+  help_key_ = std::move(help);
+  choose_key_ = std::move(choose);
+}
+
 void ScreenText::tell(std::string why, MonotonicTime now) {
   why_ = std::move(why);
   told_until_ = now + 2 * kAwake;
@@ -159,6 +164,7 @@ ScreenContent ScreenText::content(const ScreenFacts& facts, const ScreenRows& st
   if (!keys_.empty()) return content;
   if (now < told_until_) content.warning = why_;
   content.list = list_;
+  if (list_) content.choose_key = choose_key_;
   if (list_) return content;
   const bool shows_bar = showsBar(facts, now);
   if (shows_bar) content.bar = bar(facts, now);

@@ -63,6 +63,7 @@ struct ScreenContent {
   ScreenRows statistics, keys;
   std::size_t keys_page = 0;       // from 0 on, if the keys do not fit on one page
   std::string help_key;            // the key that shows all keys; only with keys and list
+  std::string choose_key;          // the key that plays the selected film; only with the list
   std::optional<ScreenList> list;  // of films, in place of a film
 
   [[nodiscard]] bool empty() const { return *this == ScreenContent{}; }
@@ -88,7 +89,8 @@ class ScreenText {
   // To another of these pages, no further than the first and the last.
   void turnPage(int by) noexcept;
   void hideKeys() noexcept { keys_.clear(); }
-  void setHelpKey(std::string label) { help_key_ = std::move(label); }
+  // The keys that show all keys, and that play the selected film of the list.
+  void setKeyNames(std::string help, std::string choose);
   [[nodiscard]] bool showsKeys() const noexcept { return !keys_.empty(); }
   [[nodiscard]] bool showsWarning(MonotonicTime now) const noexcept { return now < told_until_; }
   // Shows why something does not work.
@@ -118,7 +120,7 @@ class ScreenText {
   bool bar_ = false, statistics_ = false;
   ScreenRows keys_;
   std::size_t keys_page_ = 0, keys_pages_ = 0;
-  std::string help_key_;
+  std::string help_key_, choose_key_;
   MonotonicTime awake_until_;
   std::string why_, hint_;
   ScreenNotice notice_;

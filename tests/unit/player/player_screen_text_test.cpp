@@ -209,7 +209,7 @@ TEST(ScreenText, AKeyToAChapterTellsWhichItIs) {
 
 TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
   ScreenText text;
-  text.setHelpKey("h");
+  text.setKeyNames("h", "Enter");
   EXPECT_EQ(at(text, playing()).help_key, "") << "no keys are shown";
   for (const std::size_t page : {0, 1, 2}) {
     text.turnKeys({{"SPACE", "pause"}}, 3);

@@ -39,6 +39,16 @@ TEST(ListScript, TellsTheFilmUnderAMouse) {
   EXPECT_FALSE(at(10, 200)) << "beside the rows";
 }
 
+TEST(ListScript, ItsFootNamesTheKeyOfTheViewersHands) {
+  ScreenContent content;
+  content.list = list();
+  content.help_key = "Pad Start";
+  content.choose_key = "Pad A or Cross";
+  EXPECT_THAT(screenLines(content, kAspect), Contains(HasSubstr("}Up and down choose, Pad A or Cross plays")));
+  EXPECT_THAT(screenLines(content, 1), Not(Contains(HasSubstr("choose"))));
+  EXPECT_THAT(screenLines(content, 1), Contains(HasSubstr("}Pad Start: all keys")));
+}
+
 TEST(ListScript, SaysItsTitlesAsTheyAre) {
   ScreenContent content;
   content.list = list();
