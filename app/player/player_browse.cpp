@@ -108,6 +108,7 @@ bool Player::hearMouseInList(const SurfaceMouse& mouse, bool clicks) {
   const auto film = screen_.filmAt(mouse);
   browser_->point(film);
   if (mouse.notches != 0) browser_->selectBy(-mouse.notches);
+  if (clicks && screen_.isOverListHelp(mouse)) mouse_.click(PlayerVerb::Keys);
   if (clicks && film) {
     browser_->select(*film);
     mouse_.click(PlayerVerb::Choose);

@@ -22,7 +22,7 @@ class MouseWishes {
     const bool was_pressed = std::exchange(pressed_, pressed);
     return pressed && !was_pressed;
   }
-  // A button of the bar, or the selected film of the list, was clicked.
+  // A button of the bar, the selected film of the list, or the words below the list were clicked.
   void click(PlayerVerb verb) noexcept { clicked_ = verb; }
 
   // Each is returned once.

@@ -217,6 +217,11 @@ std::optional<std::size_t> FilmScreen::filmAt(const SurfaceMouse& mouse) const {
   return point ? listFilmAt(*written_.list, point->across, point->down, point->aspect) : std::nullopt;
 }
 
+bool FilmScreen::isOverListHelp(const SurfaceMouse& mouse) const {
+  const auto point = written_.list ? picture_.viewPoint(mouse.across, mouse.down) : std::nullopt;
+  return point && isListHelpAt(written_.help_key, point->across, point->down, point->aspect);
+}
+
 void FilmScreen::describe(PlayReport& report) const {
   const RenderStatistics& drawn = picture_.statistics();
   report.display = picture_.capabilities().name;

@@ -83,6 +83,8 @@ class FilmScreen {
 
   // The film that the mouse is over in the list of films; nullopt: none.
   [[nodiscard]] std::optional<std::size_t> filmAt(const SurfaceMouse& mouse) const;
+  // Whether the mouse is over the words below the list that name the key for all keys.
+  [[nodiscard]] bool isOverListHelp(const SurfaceMouse& mouse) const;
   [[nodiscard]] bool isFullScreen() const noexcept { return picture_.isFullScreen(); }
 
   // The keys, page by page; see ScreenText.

@@ -131,4 +131,9 @@ std::optional<std::size_t> listFilmAt(const ScreenList& list, double across, dou
   return std::nullopt;
 }
 
+bool isListHelpAt(const std::string& help_key, double across, double down, double aspect) {
+  const double right = kScreenRows * aspect - kMargin, x = across * kScreenRows * aspect, y = down * kScreenRows;
+  return !help_key.empty() && x >= right - footWidth(helpWords(help_key)) && x <= right && y >= kFootTop;
+}
+
 }  // namespace relievo

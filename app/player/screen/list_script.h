@@ -22,5 +22,7 @@ void addList(Script& script, const ScreenList& list, const ListKeys& keys);
 // The film at a place of the view, `across` and `down` from 0 to 1; nullopt if none is there.
 [[nodiscard]] std::optional<std::size_t> listFilmAt(const ScreenList& list, double across, double down,
                                                     double aspect) noexcept;
+// Whether the foot's words about `help_key` are at this place.
+[[nodiscard]] bool isListHelpAt(const std::string& help_key, double across, double down, double aspect);
 
 }  // namespace relievo

@@ -39,6 +39,17 @@ TEST(ListScript, TellsTheFilmUnderAMouse) {
   EXPECT_FALSE(at(10, 200)) << "beside the rows";
 }
 
+// "h: all keys" has 11 letters of 11.44 and ends at 1240.
+TEST(ListScript, TellsTheMouseOverTheWordsAboutTheKeys) {
+  const auto at = [](double x, double y) { return isListHelpAt("h", x / 1280, y / 720, kAspect); };
+  EXPECT_TRUE(at(1120, 690));
+  EXPECT_TRUE(at(1239, 719));
+  EXPECT_FALSE(at(1100, 690));
+  EXPECT_FALSE(at(1250, 690));
+  EXPECT_FALSE(at(1200, 670));
+  EXPECT_FALSE(isListHelpAt("", 1200 / 1280.0, 690 / 720.0, kAspect)) << "no key shows them";
+}
+
 TEST(ListScript, ItsFootNamesTheKeyOfTheViewersHands) {
   ScreenContent content;
   content.list = list();
