@@ -103,6 +103,9 @@ void Player::followOpening(MonotonicTime now) {
   }
   journal_.filmIs(film_.opened());
   beginWords();
+  if (const auto start = std::exchange(config_.start, std::nullopt)) {
+    return seek(*start, PlayerEvent::Seek, false, now);
+  }
   const auto left = programme_.whereLeft(film_.info().duration);
   if (!left) return;
   log(LogLevel::Info, "play", "resumes at %.1f s, where it was left", toSeconds(*left));

@@ -56,6 +56,7 @@ inline constexpr const char* kPlayAbout =
     "  relievo one.mkv two.mkv films/           one film after the other, and those of a folder; --loop repeats\n"
     "  relievo color.mp4 --depth depth.mkv      colour and depth are two files\n"
     "  relievo scan.mov --packing tb            colour on top, depth below in one picture; sbs: side by side\n"
+    "  relievo film.mkv --start 1:30            from that time on\n"
     "  relievo film.mkv --stereo anaglyph       for red-cyan glasses; sbs, tab: for a 3D screen\n"
     "  relievo film.mkv --display kms           on a whole screen without a desktop\n"
     "  relievo film.mkv --haptic falcon         felt with a force-feedback device; a second --haptic adds a finger\n"

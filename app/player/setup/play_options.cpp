@@ -33,6 +33,7 @@ constexpr const char* kStereoHelp =
     "anaglyph[:gray|color]: for red-cyan glasses; frame-packing: HDMI 3D; quilt[:COLSxROWS]: many views [8x6]";
 constexpr const char* kLayouts =
     "mono sbs[:full] tab[:full] rows columns anaglyph[:gray|color] frame-packing quilt[:COLSxROWS]";
+constexpr const char* kNoTime = "a time is seconds, M:SS or H:MM:SS, such as 90 or 1:30";
 constexpr const char* kNoDuration = "a duration is more than 0 and at most a billion seconds";
 
 void addSources(CLI::App& command, PlayOptions& play) {
@@ -71,6 +72,21 @@ Duration readDuration(double seconds) {
     throw WordFailure({print("--duration %g", seconds), {ErrorCode::InvalidArgument, 0, kNoDuration}});
   }
   return fromSeconds(seconds);
+}
+
+MediaTime readTime(const std::string& word) {
+  double seconds = 0;
+  const std::string text = word.ends_with(':') ? "" : word;  // else the last part would be missing, not wrong
+  std::istringstream parts(text);
+  int count = 0;
+  for (std::string part; std::getline(parts, part, ':'); ++count) {
+    double number = -1;
+    const bool good = CLI::detail::lexical_cast(part, number) && number >= 0 && number <= kLongestDurationS;
+    if (!good || count == 3) throw WordFailure({"--start " + word, {ErrorCode::InvalidArgument, 0, kNoTime}});
+    seconds = 60 * seconds + number;
+  }
+  if (count == 0) throw WordFailure({"--start " + word, {ErrorCode::InvalidArgument, 0, kNoTime}});
+  return mediaTime(seconds);
 }
 
 BackEndName nameOf(const std::string& given) {
@@ -248,6 +264,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   addBoxOption(command, play.player.volume);
   addSoundAndTextOptions(command, play.player);
   command.add_flag("--osd", play.osd, "Show bar, keys and notices over an off-screen picture, too");
+  command
+      .add_option_function<std::string>(
+          "--start", [&play](const std::string& word) { play.player.start = readTime(word); },
+          "Begin the first film at this time: seconds, M:SS or H:MM:SS")
+      ->type_name("TIME");
   command.add_flag("--loop", play.player.loop, "Repeat from the beginning at the end");
   command
       .add_option_function<double>(

@@ -66,12 +66,29 @@ TEST(Options, TakeAnyCase) {
 
 TEST(Options, SayWhatWasMeant) {
   expectRefused({"film.mkv", "--sterio", "sbs"}, "--sterio: no such option; did you mean --stereo?");
-  expectRefused({"film.mkv", "--full-screen"}, "--full-screen: no such option; see relievo play --help");
+  expectRefused({"film.mkv", "--wide-screen"}, "--wide-screen: no such option; see relievo play --help");
   expectRefused({"film.mkv", "--display", "windo"}, "did you mean window?");
   expectRefused({"film.mkv", "--packing", "trakcs"}, "did you mean tracks?");
   expectRefused({"probe", "film.mkv", "--jsn"}, "--jsn: no such option; did you mean --json?");
   expectRefused({"prob", "film.mkv"}, "prob (probe?): is neither a file nor a command");
   expectRefused({"devices", "calibrat"}, "calibrat: is one argument too many");
+}
+
+TEST(Options, AFilmBeginsWhereItIsSaid) {
+  using std::chrono::milliseconds;
+  for (const auto& [words, start] : {std::pair{"--start=90", 90'000},
+                                     {"--start=1:30", 90'000},
+                                     {"--start=1:01:01.5", 3'661'500},
+                                     {"--start=0", 0}}) {
+    const Parsed parsed = parse({"film.mkv", words});
+    ASSERT_TRUE(parsed.options) << parsed.err;
+    EXPECT_EQ(parsed.options->play.player.start, MediaTime(milliseconds(start))) << words;
+  }
+  EXPECT_EQ(parse({"film.mkv", "--start", "2:00"}).options->play.player.start, MediaTime(milliseconds(120'000)));
+  EXPECT_EQ(parse({"film.mkv"}).options->play.player.start, std::nullopt);
+  for (const char* word : {"soon", "-1", "1:", ":", "1:-2", "1:2:3:4", "50%", "1e12"}) {
+    expectRefused({"film.mkv", "--start", word}, ": a time is seconds, M:SS");
+  }
 }
 
 TEST(Options, TakeEveryWordOfPlay) {
