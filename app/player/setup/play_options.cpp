@@ -39,7 +39,9 @@ constexpr const char* kNoDuration = "a duration is more than 0 and at most a bil
 void addSources(CLI::App& command, PlayOptions& play) {
   const auto take = [&player = play.player](std::vector<std::string> sources) {
     for (std::string& source : sources) {  // some desktops give a film's address
-      const std::string path = source.starts_with("file:///") ? pathOfFileUrl(source) : "";
+      const std::string path = source == "-"                    ? "/dev/stdin"
+                               : source.starts_with("file:///") ? pathOfFileUrl(source)
+                                                                : "";
       if (!path.empty() && isThere(path)) source = path;
     }
     if (auto series = seriesOf(sources)) {

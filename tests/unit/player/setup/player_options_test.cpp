@@ -89,6 +89,7 @@ TEST(Options, AFilmBeginsWhereItIsSaid) {
   for (const char* word : {"soon", "-1", "1:", ":", "1:-2", "1:2:3:4", "50%", "1e12"}) {
     expectRefused({"film.mkv", "--start", word}, ": a time is seconds, M:SS");
   }
+  EXPECT_EQ(parse({"-"}).options->play.player.source.url, "/dev/stdin");
 }
 
 TEST(Options, TakeEveryWordOfPlay) {
