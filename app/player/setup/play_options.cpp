@@ -286,6 +286,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->type_name("FOLDER")
       ->allow_extra_args(false);
   addFileOptions(command, play);
+  answerOptionsOfOthers(command);
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);
 }
 

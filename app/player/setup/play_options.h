@@ -12,5 +12,7 @@ namespace relievo {
 void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names);
 // Adds --depth, and the options for reading a source and its depth, for every command that takes a source.
 void addDepthSource(CLI::App& command, SourceOptions& source);
+// Answers options of other players that relievo does not have: with the way to do the same.
+void answerOptionsOfOthers(CLI::App& command);
 
 }  // namespace relievo

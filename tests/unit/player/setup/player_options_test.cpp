@@ -92,6 +92,17 @@ TEST(Options, AFilmBeginsWhereItIsSaid) {
   EXPECT_EQ(parse({"-"}).options->play.player.source.url, "/dev/stdin");
 }
 
+// With a value and without, in both forms, before the film and behind it.
+TEST(Options, OfOtherPlayersAreAnsweredWithWhatDoesTheSame) {
+  expectRefused({"film.mkv", "--ss", "10"}, "--ss: no such option; use --start TIME");
+  expectRefused({"--ss=10", "film.mkv"}, "--ss: no such option; use --start TIME");
+  expectRefused({"--mute", "--loop", "film.mkv"}, "--mute: no such option; use --audio none");
+  expectRefused({"film.mkv", "--fs"}, "--fs: no such option; the key f fills the screen");
+  expectRefused({"film.mkv", "--no-audio"}, "--no-audio: no such option; use --audio none");
+  expectRefused({"film.mkv", "--sub-file=a.srt"}, "--sub-file: no such option; subtitles lie beside the film");
+  EXPECT_THAT(parse({"play", "--help"}).out, testing::Not(HasSubstr("--no-audio")));
+}
+
 TEST(Options, TakeEveryWordOfPlay) {
   const Parsed parsed = parse({"play",         "scan.mov",   "--packing",     "tb",
                                "--depth-code", "hue",        "--calibration", "law=inverse,near=300,far=3000",
