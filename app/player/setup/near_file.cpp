@@ -12,6 +12,7 @@
 namespace relievo {
 
 std::string nearFile(const std::string& path) {
+  if (path.starts_with("www.")) return "https://" + path;
   constexpr std::size_t kMostFiles = 10'000;
   namespace fs = std::filesystem;
   const fs::path asked = path, folder = asked.parent_path();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the file that a misspelt name probably means.
+// Finds the file or the address that a misspelt name probably means.
 #pragma once
 
 #include <string>
 
 namespace relievo {
 
-// The file or folder beside `path` with a similar name, or the same name with another extension; empty if there is
-// none. May wait for the disk.
+// The file or folder beside `path` with a similar name, or the same name with another extension; for "www.HOST/.." the
+// address; empty if there is none. May wait for the disk.
 [[nodiscard]] std::string nearFile(const std::string& path);
 
 }  // namespace relievo

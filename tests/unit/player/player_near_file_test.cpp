@@ -23,5 +23,9 @@ TEST(NearFile, FindsASwapAnotherExtensionAndNothingThatIsFar) {
   EXPECT_EQ(nearFile(folder / "away/sample.mkv"), "") << "there is no such folder";
 }
 
+TEST(NearFile, AnAddressWithoutItsBeginningIsOfTheWeb) {
+  EXPECT_EQ(nearFile("www.example.org/film.mp4"), "https://www.example.org/film.mp4");
+}
+
 }  // namespace
 }  // namespace relievo
