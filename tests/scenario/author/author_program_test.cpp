@@ -97,6 +97,14 @@ TEST_F(AuthorFilm, ProgramTellsWrongUseInOneLine) {
   EXPECT_TRUE(made().empty());
 }
 
+TEST_F(AuthorFilm, ProgramTellsTheRangeOfAQuality) {
+  for (const char* words : {"--crf 99", "--crf 1.5", "--depth-crf x", "--depth-crf=-1"}) {
+    const auto said = run(std::string("--color @/color.mkv -o @/out.mkv ") + words);
+    EXPECT_EQ(said.exit_code, 2) << words;
+    EXPECT_THAT(said.err, HasSubstr(" is not a whole number between 0 and 51")) << words;
+  }
+}
+
 TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   const auto said = run("--color @/color.mkv -o @/out.mkv");
