@@ -73,28 +73,23 @@ struct Apart {
   std::optional<Error> error;
 };
 
-// True if every file that the playlist names exists and is not empty.
-bool namesOnlyWhatIsThere(const fs::path& playlist, const fs::path& segments) {
+// The size of the files that the playlist names, with the start; 0 if one of them is missing or empty.
+std::uint64_t bytesNamed(const fs::path& playlist, const fs::path& segments) {
+  const auto sizeOf = [&](const fs::path& name) {
+    std::error_code failed;
+    const std::uint64_t bytes = fs::file_size(segments / name, failed);
+    return failed ? 0 : bytes;
+  };
+  const std::uint64_t start = sizeOf(kStart);
+  std::uint64_t bytes = start;
   std::ifstream list(playlist);
-  int named = 0;
   for (std::string line; std::getline(list, line);) {
     if (line.empty() || line.starts_with('#')) continue;
-    std::error_code none;
-    const auto bytes = fs::file_size(segments / fs::path(line).filename(), none);
-    if (none || bytes == 0) return false;
-    ++named;
+    const std::uint64_t segment = sizeOf(fs::path(line).filename());
+    if (segment == 0) return 0;
+    bytes += segment;
   }
-  std::error_code none;
-  return named > 0 && fs::file_size(segments / kStart, none) > 0 && !none;
-}
-
-std::uint64_t bytesIn(const fs::path& folder) {
-  std::error_code failed;
-  std::uint64_t bytes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder, failed)) {
-    if (entry.is_regular_file(failed)) bytes += entry.file_size(failed);
-  }
-  return bytes;
+  return start == 0 || bytes == start ? 0 : bytes;
 }
 
 bool move(const fs::path& from, const fs::path& to, unsigned how) {
@@ -108,7 +103,8 @@ struct Move {
 // deleted, or exchanged back if the playlist cannot be moved into place. 0 or errno.
 int putInPlace(const Move& segments, const Move& playlist, Existing existing) {
   const bool keeps = existing == Existing::Keep;
-  const unsigned how = !keeps && fs::exists(segments.to) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
+  std::error_code none;
+  const unsigned how = !keeps && fs::exists(segments.to, none) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
   if (!move(segments.from, segments.to, how)) return errno;
   if (move(playlist.from, playlist.to, keeps ? RENAME_NOREPLACE : 0)) return 0;
   const int os_error = errno;
@@ -163,8 +159,7 @@ class HlsFolder final : public FilmPlace {
     if (error_) return std::unexpected(failureOf(codeOf(*error_)));
     if (code < 0) return std::unexpected(failureOf(code));
     const Move segments{madeSegments(), segments_}, playlist{apart_ / kPlaylist, playlist_};
-    const auto whole = answerOf(
-        playlist_, [=] { return namesOnlyWhatIsThere(playlist.from, segments.from) ? bytesIn(segments.from) : 0; });
+    const auto whole = answerOf(playlist_, [=] { return bytesNamed(playlist.from, segments.from); });
     if (!whole) return std::unexpected(whole.error());
     if (*whole == 0) return fail(ErrorCode::Io, "a segment is missing; is the disk full?");
     const auto moved =
