@@ -5,7 +5,6 @@
 #include <span>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/cli/options.h"
@@ -116,14 +115,19 @@ const CLI::App* commandIn(const CLI::App& program, std::span<const char* const> 
 }
 
 // In "--report --loop", "--loop" is not meant as a file's name, though CLI11 would take it as one; nor is "" in
-// --report "$FILE" where no FILE was set.
+// --report "$FILE", or the word after --report="$FILE", where no FILE was set.
 const CLI::Option* withoutValue(const CLI::App& command, std::span<const char* const> words) {
   const std::vector<std::string> names = optionsOf(command);
+  const auto taking = [&command](const std::string& name) -> const CLI::Option* {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    return option != nullptr && option->nonpositional() && !isFlag(*option) ? option : nullptr;
+  };
   for (std::size_t i = 1; i < words.size(); ++i) {
-    const std::string_view word(words[i]);
-    if (!word.empty() && std::ranges::find(names, word) == names.end()) continue;
-    const CLI::Option* const option = command.get_option_no_throw(words[i - 1]);
-    if (option != nullptr && option->nonpositional() && !isFlag(*option)) return option;
+    const std::string word(words[i]), name = word.substr(0, word.find('='));
+    if (!word.empty() && std::ranges::find(names, name) == names.end()) continue;
+    const CLI::Option* option = taking(words[i - 1]);
+    if (option == nullptr && word == name + "=") option = taking(name);
+    if (option != nullptr) return option;
   }
   return nullptr;
 }

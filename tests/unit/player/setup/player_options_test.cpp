@@ -215,6 +215,8 @@ TEST(Options, EachThatNeedsAValueSaysSoInTheProjectsWords) {
     const std::string said = dash + ": its value is missing; write " + dash + " ";
     expectRefused({"play", "film.mkv", dash.c_str()}, said.c_str());
     expectRefused({"play", "film.mkv", dash.c_str(), "--loop"}, said.c_str());
+    expectRefused({"play", (dash + "=").c_str(), "film.mkv"}, said.c_str());
+    expectRefused({"play", "film.mkv", dash.c_str(), "--duration=5"}, said.c_str());
   }
   EXPECT_GT(options, 20u);
   expectRefused({"play", "film.mkv", "--report", "--loop"}, "--report: its value is missing; write --report FILE");
