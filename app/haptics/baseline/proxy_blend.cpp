@@ -30,7 +30,7 @@ Touch ProxyBlend::update(const glm::dvec3& hip_mm, const SurfaceWindow& window, 
   const SurfaceInTime new_surface(window, now, TimeLaw::Hold);
   on_new_ = followFinger(new_surface, on_new_.proxy_mm, hip_mm, stiffness_, Walk::Graph);
   Touch touch = on_new_;
-  if (k > 0) {
+  if (k > 0 && window.frames[k - 1].shot == frame.shot) {
     const TimedSurface& before = window.frames[k - 1];
     const SurfaceInTime old_surface(window, before.time, TimeLaw::Hold);
     on_old_ = followFinger(old_surface, on_old_.proxy_mm, hip_mm, stiffness_, Walk::Graph);

@@ -29,7 +29,7 @@ class SurfaceInTime {
     present_ = &present.field;
     if (law == TimeLaw::Hold || k + 1 == window.count || now <= present.time) return;
     const TimedSurface& next = window.frames[static_cast<std::size_t>(k) + 1];
-    if (next.repeats) return;
+    if (next.repeats || next.shot != present.shot) return;  // before a cut the old scene stands
     next_ = &next.field;
     // Paper, eq. 1, with the frame period taken from the timestamps.
     weight_ = toSeconds(now - present.time) / toSeconds(next.time - present.time);

@@ -48,6 +48,13 @@ TEST(SurfaceInTime, AFrameThatIsSaidToRepeatIsNotRead) {
   EXPECT_DOUBLE_EQ(heightAt(w, 0.02, TimeLaw::Linear), 100 * 40.0 / 255);
 }
 
+TEST(SurfaceInTime, TheOldSceneStandsUntilTheCut) {
+  SurfaceWindow w = risingWindow();
+  w.frames[2].shot = w.frames[3].shot = 1;
+  EXPECT_DOUBLE_EQ(heightAt(w, 0.059, TimeLaw::Linear), 200 * 40.0 / 255);
+  EXPECT_NEAR(heightAt(w, 0.08, TimeLaw::Linear), 200 * 40.0 / 255, 1e-9) << "halfway from 150 to 250";
+}
+
 TEST(SurfaceInTime, LinearFollowsTheTimestampsNotANominalRate) {
   const SurfaceWindow w = risingWindow();
   const double unit = 40.0 / 255;

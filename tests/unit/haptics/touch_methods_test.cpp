@@ -193,6 +193,16 @@ TEST(ModifiedProxyGraph, LetsTheFingerThroughWhereTheForceJumps) {
   EXPECT_FALSE(guarded->update({0, 0, 18}, w, mediaTime(1.1)).contact);
 }
 
+TEST(ProxyBlend, LeavesTheOldSceneAtTheCut) {
+  const auto frames = planeFrames(20, 0, -5);
+  SurfaceWindow w = makeWindow(frames, kVolume);
+  w.frames[1].shot = 1;
+  const auto m = method("proxy-blend");
+  for (const double z : {21.0, 18.0, 14.0}) static_cast<void>(m->update({0, 0, z}, w, mediaTime(0.5)));
+  EXPECT_NEAR(m->update({0, 0, 14}, w, mediaTime(0.99)).force_n.z, 3, 0.01);
+  EXPECT_NEAR(m->update({0, 0, 14}, w, mediaTime(1.01)).force_n.z, 0.5, 0.01);
+}
+
 TEST(ModifiedProxyGraph, HasNoSurfaceOutsideThePictureNorInHoles) {
   const std::vector<Frame> frames{
       test::makeGrayFrame(kCols, kRows, 8, {}, [](int c, int) { return c < 60 ? 0 : 128; })};
