@@ -2,6 +2,8 @@
 #include "app/haptics/task/workspace_mapping.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 namespace relievo {
 namespace {
@@ -21,6 +23,8 @@ WorkspaceMapping::WorkspaceMapping(const HapticCapabilities& device, const Displ
 
 WorkspaceMapping::Finger WorkspaceMapping::follow(const HapticSample& sample) RELIEVO_RT {
   if (in_scene_) return {.hip_mm = sample.position_mm};
+  const glm::dvec3& p_mm = sample.position_mm;
+  if (!std::isfinite(glm::dot(p_mm, p_mm))) return {.hip_mm = p_mm, .clutched = clutched_};  // spoils no later tick
   const glm::dvec3 hip_mm = scale_ * sample.position_mm + offset_mm_;
   const bool pressed = (sample.buttons & kClutchButton) != 0;
   if (pressed && !clutched_) held_mm_ = hip_mm;

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace relievo {
 namespace {
@@ -55,6 +57,18 @@ TEST(WorkspaceMapping, TheClutchHoldsTheFingerWhileTheDeviceMoves) {
   EXPECT_NEAR(glm::distance(after.hip_mm, before), 0, 1e-9) << "no jump when the clutch is released";
   EXPECT_NEAR(mapping.follow({{-10, 0, 125}, 0}).hip_mm.x - before.x, 10 * mapping.scale(), 1e-9);
   EXPECT_NEAR(mapping.deviceAt(mapping.follow({{5, 6, 99}, 0}).hip_mm).y, 6, 1e-9);
+}
+
+TEST(WorkspaceMapping, APositionThatIsNoneIsForgottenWhileTheClutchIsHeldToo) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    WorkspaceMapping mapping(workspace({-100, -80, -40}, {100, 80, 80}), kVolume);
+    static_cast<void>(mapping.follow({{10, 0, 20}, 0}));
+    EXPECT_FALSE(std::isfinite(mapping.follow({{10, bad, 20}, kClutch}).hip_mm.y));
+    EXPECT_EQ(mapping.follow({{10, 0, 20}, kClutch}).hip_mm, glm::dvec3(10, 0, 20));
+    EXPECT_TRUE(mapping.follow({{10, bad, 20}, kClutch}).clutched);
+    EXPECT_EQ(mapping.follow({{30, 0, 20}, kClutch}).hip_mm, glm::dvec3(10, 0, 20));
+    EXPECT_EQ(mapping.follow({{30, 5, 20}, 0}).hip_mm, glm::dvec3(10, 5, 20));
+  }
 }
 
 TEST(WorkspaceMapping, OtherButtonsAreNoClutch) {
