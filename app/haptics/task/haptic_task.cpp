@@ -109,8 +109,8 @@ LoopControl HapticTask::loop(const Cycle& cycle) RELIEVO_RT {
   // Limits and energies apply to the hand, in the device's frame.
   const bool rests = rests_in_pause_ && window.clock.rate == 0;
   const bool felt = !stale_ && !finger.clutched && !rests;
-  const glm::dvec3 wanted = finger.edge_force_n + (felt ? touch.force_n : glm::dvec3(0));
-  state.force_n = safety_.apply(wanted, sample->position_mm, elapsed);
+  const glm::dvec3 wanted = felt ? touch.force_n : glm::dvec3(0);
+  state.force_n = safety_.apply(wanted, sample->position_mm, elapsed, finger.edge_force_n);
   state.proxy_mm = touch.proxy_mm;
   state.contact = touch.contact;
   counters_.update.add(clock_.now() - started);

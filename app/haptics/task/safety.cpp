@@ -17,6 +17,13 @@ glm::dvec3 approach(const glm::dvec3& from, const glm::dvec3& to, double most) R
   return wished > most ? from + change * (most / wished) : to;
 }
 
+// Zero for a force that is not finite.
+glm::dvec3 within(double most, const glm::dvec3& force) RELIEVO_RT {
+  const double size = glm::length(force);
+  if (!std::isfinite(size)) return glm::dvec3(0);
+  return size > most ? force * (most / size) : force;
+}
+
 }  // namespace
 
 void SafetyFilter::reset() RELIEVO_RT {
@@ -25,15 +32,9 @@ void SafetyFilter::reset() RELIEVO_RT {
   books_.reset();
 }
 
-glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s) RELIEVO_RT {
-  glm::dvec3 target = wanted_n;
-  double size = glm::length(target);
-  if (!std::isfinite(size)) {
-    target = glm::dvec3(0);
-    size = 0;
-  }
-  if (size > limits_.force_n) target *= limits_.force_n / size;
-  target *= share();
+glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s,
+                               const glm::dvec3& edge_n) RELIEVO_RT {
+  const glm::dvec3 target = within(limits_.force_n, share() * within(limits_.force_n, wanted_n) + edge_n);
 
   glm::dvec3 moved = primed_ ? device_mm - last_device_mm_ : glm::dvec3(0);
   if (!std::isfinite(glm::dot(moved, moved))) moved = glm::dvec3(0);
@@ -43,9 +44,7 @@ glm::dvec3 SafetyFilter::apply(const glm::dvec3& wanted_n, const glm::dvec3& dev
   const double allowed = by_hand + limits_.scene_slew_n_per_s * elapsed;
   const glm::dvec3 spring = approach(spring_n_, target, allowed);
   if (limits_.limit_energy) lean(spring, moved, elapsed);
-  glm::dvec3 sent = spring + lean_n_;
-  if (glm::length(sent) > limits_.force_n) sent *= limits_.force_n / glm::length(sent);
-  sent = approach(sent_n_, sent, allowed);
+  const glm::dvec3 sent = approach(sent_n_, within(limits_.force_n, spring + lean_n_), allowed);
 
   const double beyond_hand = std::max(glm::length(sent - sent_n_) - by_hand, 0.0);
   scene_slew_ = elapsed > 0 ? beyond_hand / elapsed : 0.0;

@@ -42,9 +42,11 @@ class SafetyFilter {
   SafetyFilter(const SafetyLimits& limits, double stiffness_n_per_mm) noexcept
       : limits_(limits), stiffness_(stiffness_n_per_mm), books_(stiffness_n_per_mm) {}
 
-  // The force to send for the force that the method wants. `device_mm` is the handle's position in the device's frame,
-  // as are the forces; `elapsed_s` is the time since the last tick. Starts from zero after `reset`.
-  [[nodiscard]] glm::dvec3 apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s) RELIEVO_RT;
+  // The force to send for the force that the method wants; `edge_n` is that of the soft ends of the device's workspace,
+  // which the tank does not fade. `device_mm` is the handle's position in the device's frame, as are the forces;
+  // `elapsed_s` is the time since the last tick. Starts from zero after `reset`.
+  [[nodiscard]] glm::dvec3 apply(const glm::dvec3& wanted_n, const glm::dvec3& device_mm, double elapsed_s,
+                                 const glm::dvec3& edge_n = glm::dvec3(0)) RELIEVO_RT;
   void reset() RELIEVO_RT;
 
   // Rate at which the scene changed the force in the last `apply`: (|change| - stiffness x moved)/elapsed, at least 0.

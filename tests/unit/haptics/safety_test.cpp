@@ -250,6 +250,15 @@ TEST(SafetyFilter, ACutLeavesTheTankHalfFull) {
   }
 }
 
+TEST(SafetyFilter, AnEmptyTankLeavesTheEndsOfTheWorkspaceFirm) {
+  SafetyFilter filter({.tank_mj = 1e-9, .tank_mj_per_s = 0}, 0.5);
+  glm::dvec3 force(0);
+  for (int i = 0; i < 300; ++i)
+    force = filter.apply({0, 0, i % 100 < 50 ? 4.0 : 0.0}, {0, 0, 0.1 * std::min(i, 200)}, kTick, {0.4, 0, 0});
+  EXPECT_EQ(filter.share(), 0);
+  EXPECT_NEAR(glm::distance(force, {0.4, 0, 0}), 0, 1e-9);
+}
+
 TEST(EnergyBooks, AStillWallTakesNothingFromTheSceneAndGivesHalfKDxSquaredPerHeldTick) {
   // In and out of a wall of K = 0.5 N/mm in steps of 0.1 mm, 2 mm deep, without friction. The exact work over the
   // closed path is zero. Because the force is held over the tick, each step in or out gives the hand K dx^2/2: 40
