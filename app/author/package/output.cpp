@@ -3,7 +3,10 @@
 #include "app/author/package/output.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
+#include <system_error>
 
 #include "app/author/package/film_kind.h"
 #include "app/scene/display_volume.h"
@@ -115,6 +118,16 @@ Result<void> checkPlace(const std::string& path, bool force) {
   return {};
 }
 
+// FFmpeg would send to another port than the one that was meant: that of the number modulo 65536.
+bool namesAPort(const std::string& address) {
+  const auto place = std::string_view(address).substr(address.find("://") + 3);
+  const auto host_and_port = place.substr(0, place.find_first_of("/?"));
+  const auto number = host_and_port.substr(host_and_port.rfind(':') + 1);  // all of it without a colon
+  int port = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), port);
+  return error == std::errc{} && end == number.data() + number.size() && port > 0 && port < 65536;
+}
+
 }  // namespace
 
 Result<void> checkOutput(const OutputOptions& output) {
@@ -125,7 +138,10 @@ Result<void> checkOutput(const OutputOptions& output) {
     return fail(ErrorCode::InvalidArgument,
                 "the codec does not support this bit depth; h264 has 8 and 10, hevc also 12, ffv1 also 12 and 16");
   }
-  if (kind == FilmKind::Live) return {};
+  if (kind == FilmKind::Live) {
+    if (namesAPort(output.path)) return {};
+    return fail(ErrorCode::InvalidArgument, "the port is not a number from 1 to 65535; write udp://HOST:PORT");
+  }
   if (kind == FilmKind::Hls && !output.force && isThere(segmentFolderOf(output.path))) {
     return fail(ErrorCode::Io,
                 "its folder of segments already exists; choose another name, or overwrite it with --force");

@@ -96,6 +96,13 @@ TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
   EXPECT_EQ(refused({.path = "no/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
   EXPECT_THAT(refused({.path = "no/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
   EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("h264 has 8 and 10"));
+  for (const char* path : {"udp://[::1]:65535?pkt_size=1316", "srt://localhost:9000/"}) {
+    EXPECT_EQ(refused({.path = path}), "") << path;
+  }
+  for (const char* path : {"udp://127.0.0.1:99999", "udp://127.0.0.1:0", "udp://127.0.0.1:-1", "udp://127.0.0.1:5x",
+                           "udp://127.0.0.1", "udp://[::1]", "srt://"}) {
+    EXPECT_THAT(refused({.path = path}), HasSubstr("from 1 to 65535")) << path;
+  }
 }
 
 TEST(AuthorSummary, TellsTracksCodesAndWhatWasDone) {
