@@ -9,6 +9,7 @@
 
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/coded_depth.h"
+#include "app/lab/film/color_errors.h"
 #include "app/lab/film/parallel.h"
 #include "app/lab/film/requantised.h"
 #include "app/lab/finger/finger_paths.h"
@@ -24,6 +25,7 @@ constexpr double kFramesPerSecond = 30;
 
 constexpr std::string_view kTimedScene = "face-nodding";
 constexpr int kTimedCrf = 18;
+constexpr std::size_t kPicturesPerColor = 8;  // every so many pictures are read naively, too
 
 // How recorders paint depth, coded as films are.
 constexpr DepthSteps kColored[] = {DepthSteps::Hue, DepthSteps::HueDisparity, DepthSteps::Turbo};
@@ -81,6 +83,7 @@ struct Figures {
   ForceErrorSum force;          // relievo's
   ForceErrorSum raw, smoothed;  // of the god-object, on depth as it is and on depth smoothed per frame
   HeightErrorSum heights;
+  ColorErrors colors;
 };
 
 // One film, the way over it and the truth.
@@ -104,6 +107,7 @@ Scene makeScene(std::string_view name, double duration_s) {
 
 struct CodedFilm {
   MemoryFilm film;
+  std::vector<Frame> frames;
   std::uint64_t bytes = 0;
 };
 
@@ -119,7 +123,7 @@ Result<CodedFilm> codedFilm(const Scene& scene, const Coding& coding) {
   if (!coded) return std::unexpected(coded.error());
   auto film = MemoryFilm::of(coded->frames, meaningOf(coding.bits, coding.steps));
   if (!film) return std::unexpected(film.error());
-  return CodedFilm{std::move(*film), coded->bytes};
+  return CodedFilm{std::move(*film), std::move(coded->frames), coded->bytes};
 }
 
 Result<void> addScene(const Scene& scene, Figures& figures) {
@@ -136,6 +140,8 @@ Result<void> addScene(const Scene& scene, Figures& figures) {
   for (std::size_t i = 0; i < scene.frames.size(); ++i) {
     const auto truth = HeightField::make(scene.frames[i], {.bits = 16}, TrueSurface::kVolume);
     if (truth) figures.heights.add(film.frames()[i].field, *truth);
+    if (!truth || figures.coding.steps < DepthSteps::Hue || i % kPicturesPerColor != 0) continue;
+    figures.colors.add(coded->frames[i], meaningOf(8, figures.coding.steps), film.frames()[i].field, *truth);
   }
   return {};
 }
@@ -282,7 +288,11 @@ Outcome<std::vector<ChartWords>> measureBitrate(const MeasureOptions& options) {
     if (!ticks) return failOn(std::string(name), ticks.error());
     timed = std::move(*ticks);
   }
+  std::vector<ColorErrorsRow> rows;
+  for (const Figures& f : all)
+    if (f.coding.steps >= DepthSteps::Hue) rows.push_back({name(f.coding.steps), f.coding.crf, &f.colors});
   if (auto done = write(all, plan, options.out + "/bitrate.csv"); !done) return std::unexpected(done.error());
+  if (auto done = writeColorErrors(rows, options.out); !done) return std::unexpected(done.error());
   if (auto done = writeTicks(timed, options.out + "/bitrate-ticks.csv"); !done) return std::unexpected(done.error());
   return std::vector{wordsOf(all, timed, plan)};
 }

@@ -6,10 +6,14 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <vector>
 
+#include "app/lab/film/color_errors.h"
+#include "app/lab/film/colored_depth.h"
 #include "app/lab/film/depth_rendering.h"
 #include "app/lab/film/requantised.h"
+#include "app/lab/truth/true_surface.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {
@@ -113,6 +117,28 @@ TEST(HeightErrorSum, ASampleWithoutAReadingCountsForNothing) {
               *HeightField::make(exact, {}, volume));
   EXPECT_NEAR(heights.rms(), 40 * 10 / 255.0, 1e-9);
   EXPECT_NEAR(heights.largest(), 40 * 10 / 255.0, 1e-9);
+}
+
+// Two levels in the colours of turbo. A chroma sample that lies across their step has a colour of neither, which is
+// naively read as another level.
+TEST(ColorErrors, TellColoursThatAStepMixes) {
+  constexpr int kSide = 64;
+  const DepthCalibration meaning = meaningOf(8, DepthSteps::Turbo);
+  const auto errorsOf = [&](int step) {
+    auto codes = std::make_shared<std::vector<std::uint16_t>>();
+    for (int i = 0; i < kSide * kSide; ++i) codes->push_back(i % kSide < step ? 15000 : 50000);
+    const Frame depth = grayFrame(std::move(codes), kSide, kSide), painted = colored(depth, meaning);
+    ColorErrors errors;
+    errors.add(painted, meaning, HeightField::make(painted, meaning, TrueSurface::kVolume).value(),
+               HeightField::make(depth, {.bits = 16}, TrueSurface::kVolume).value());
+    return errors;
+  };
+  using enum ColorErrors::Reading;
+  EXPECT_LT(errorsOf(32).p99(Naive, true), 0.01);
+  EXPECT_LT(errorsOf(32).p99(Own, true), 0.01);
+  EXPECT_GT(errorsOf(33).p99(Naive, true), 0.05);
+  EXPECT_GT(errorsOf(33).p99(Naive, false), 0.05) << "two of 64 columns";
+  EXPECT_LT(errorsOf(33).p99(Own, true), 0.05);
 }
 
 }  // namespace
