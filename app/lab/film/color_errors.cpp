@@ -52,8 +52,9 @@ Frame naivelyRead(const Frame& coded, const DepthCalibration& meaning) {
   for (int r = 0; r < coded.height; ++r) {
     for (int c = 0; c < coded.width; ++c) {
       const PictureColor here = colorAt(coded, c, r);
-      const auto distance = [&](const PictureColor& entry) {
-        return std::hypot(entry.red - here.red, entry.green - here.green, entry.blue - here.blue);
+      const auto distance = [&](const PictureColor& entry) {  // squared
+        const double red = entry.red - here.red, green = entry.green - here.green, blue = entry.blue - here.blue;
+        return red * red + green * green + blue * blue;
       };
       const auto nearest = std::ranges::min_element(entries, {}, distance) - entries.begin();
       codes->push_back(static_cast<std::uint16_t>(std::lround(kTop * static_cast<double>(nearest) / (kEntries - 1))));
