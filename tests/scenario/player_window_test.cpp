@@ -30,6 +30,7 @@ class PlayerWindow : public testing::Test {
 
   void SetUp() override {
     if (screen_ == nullptr) GTEST_SKIP() << test::kNoXServer;
+    ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
     // A gray picture; its depth is that of a wall in the middle.
     test::makeClip(folder_ / "film.mkv",
                    {{.pix_fmt = "yuv420p",
@@ -127,7 +128,6 @@ TEST_F(PlayerWindow, AFileAloneOpensAWindowOfItsSizeAndTheMouseIsTheFinger) {
 
 // Without a film: the list, its poster, a click on its row, and back. The view is 960 units wide and 720 high.
 TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
-  ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
   test::Process player(
       {RELIEVO_BIN_DIR "/relievo", "--films", std::filesystem::path(folder_ / "x").parent_path(), "--display", "window",
        "--size", "640x480", "--haptic", "pointer", "--report", folder_ / "r.json"},
@@ -139,9 +139,17 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
   const auto poster = [&] { return screen_->pixel(place_.x + 80, place_.y + 112)[0] > 100; };
   EXPECT_TRUE(until(poster)) << "the film's gray";
   EXPECT_LT(screen_->pixel(place_.x + 320, place_.y + 300)[0], 60) << "below the only row";
-  screen_->moveMouse(place_.x + 320, place_.y + 116);
-  screen_->button(1, true);
-  screen_->button(1, false);
+  const auto clickAt = [&](int x, int y) {
+    screen_->moveMouse(place_.x + x, place_.y + y);
+    screen_->button(1, true), screen_->button(1, false);
+  };
+  const auto ground = [&] { return screen_->pixel(place_.x + 2, place_.y + 2)[2]; };  // a dark slate; darker with keys
+  const int list = ground();
+  clickAt(590, 464);  // "h: all keys"
+  EXPECT_TRUE(until([&] { return ground() < list; })) << "the page of keys";
+  clickAt(590, 464);
+  EXPECT_TRUE(until([&] { return ground() == list; }));
+  clickAt(320, 116);
   EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] > 100; })) << "the film";
   std::this_thread::sleep_for(300ms);
   screen_->tap("Escape");
@@ -152,7 +160,6 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
   EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
   EXPECT_EQ(report()["states"], (json{"boot", "idle", "browsing", "opening", "buffering", "playing", "idle", "browsing",
                                       "opening", "buffering", "playing", "idle"}));
-  ::unsetenv("XDG_STATE_HOME");
 }
 
 // There is no window manager here: SDL's wish alone changes nothing.
@@ -302,7 +309,6 @@ TEST_F(PlayerWindow, AWordOfItsBarIsClicked) {
 
 // Otherwise the wheel is the finger's.
 TEST_F(PlayerWindow, OverTheBarTheWheelIsTheVolumeAlsoOfAMouseThatTouches) {
-  ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
   const auto player = play({"--haptic", "pointer", "--audio", "null", "--control", folder_ / "control"});
   test::ControlClient control(folder_ / "control");
   const auto volume = [&] { return control.ask("status")["volume"].get<double>(); };
@@ -320,7 +326,6 @@ TEST_F(PlayerWindow, OverTheBarTheWheelIsTheVolumeAlsoOfAMouseThatTouches) {
   EXPECT_EQ(volume(), 95);
   screen_->tap("q");
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
-  ::unsetenv("XDG_STATE_HOME");
 }
 
 TEST_F(PlayerWindow, WithoutADesktopItSaysSoInOneLine) {
