@@ -110,12 +110,16 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   if (auto opened = supply.open(source, backends, output, stop, progress); !opened) return failed(opened.error());
   std::optional<Packager> packager;
   bool live = false;  // ends on request or when its camera is unplugged, and is complete then
+  bool whole = true;
   std::optional<CancelsAnswers> kept;
   for (std::uint64_t done = 1;; ++done) {
     auto pair = supply.next();
     if (stop.load(std::memory_order_relaxed)) {
-      if (live || (packager && filmKindOf(output.path) == FilmKind::Live)) break;
-      return failOn(output.path, kCancelled);
+      const bool ends = live || (packager && filmKindOf(output.path) == FilmKind::Live);
+      if (!ends) return failOn(output.path, kCancelled);
+      kept.emplace(nullptr);  // the request ends the film and not its writing
+      whole = false;
+      break;
     }
     if (!pair && live && reader.isSourceLost(pair.error().error)) {
       log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().error.message);
@@ -133,7 +137,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
     progress(done, expectedFrames(reader.info()));
   }
   if (!packager) return failOn(source.url, {ErrorCode::Corrupt, 0, "holds no pictures"});
-  auto summary = packager->finish();
+  auto summary = packager->finish(whole);
   if (!summary) return summary;
   if (live) summary->lost.clear();  // a camera announces nothing
   const std::vector<std::string> notes = supply.notes();

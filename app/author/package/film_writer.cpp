@@ -256,7 +256,7 @@ Result<void> FilmWriter::writeMaterial(const ColorPicture420& picture, MediaTime
   return addColor(picture, impl_->material, time, key);
 }
 
-Result<FilmTotals> FilmWriter::finish() {
+Result<FilmTotals> FilmWriter::finish(bool whole) {
   Impl& film = *impl_;
   if (auto finished = film.color.finish(); !finished) return std::unexpected(finished.error());
   if (auto finished = film.depth.finish(); !finished) return std::unexpected(finished.error());
@@ -264,7 +264,8 @@ Result<FilmTotals> FilmWriter::finish() {
     if (auto finished = film.material.finish(); !finished) return std::unexpected(finished.error());
   }
   if (film.kept) {
-    if (auto written = film.kept->writeRest(); !written) return std::unexpected(written.error());
+    const auto written = whole ? film.kept->writeRest() : film.kept->writeUntil(film.color.totals.last);
+    if (!written) return std::unexpected(written.error());
   }
   const auto bytes = film.place->finish();
   if (!bytes) return std::unexpected(bytes.error());

@@ -77,7 +77,8 @@ class FilmWriter {
   [[nodiscard]] Result<void> writeDepth(const DepthPicture& picture, MediaTime time, bool key);
   // Only if the format has a material track.
   [[nodiscard]] Result<void> writeMaterial(const ColorPicture420& picture, MediaTime time, bool key);
-  [[nodiscard]] Result<FilmTotals> finish();
+  // `whole`: what is kept goes on to its own end; else it ends with the pictures.
+  [[nodiscard]] Result<FilmTotals> finish(bool whole = true);
   // Null: none.
   [[nodiscard]] const KeptTracks* kept() const noexcept;
 

@@ -187,13 +187,13 @@ bool Packager::beginsShot(const Frame& depth) {
   return recent_.size() > 1 && recent_.back().shot != recent_[recent_.size() - 2].shot;
 }
 
-Outcome<AuthorSummary> Packager::finish() {
+Outcome<AuthorSummary> Packager::finish(bool whole) {
   if (auto done = depth_line_.finish(); !done) return std::unexpected(done.error());
   if (enhancer_) {
     enhancer_->finish();
     if (auto written = writeEnhanced(); !written) return std::unexpected(written.error());
   }
-  const auto totals = writer_->finish();
+  const auto totals = writer_->finish(whole);
   if (!totals) return failOn(output_.path, totals.error());
   if (!output_.preview.empty()) {
     if (auto drawn = preview_.writePng(output_.preview); !drawn) return failOn(output_.preview, drawn.error());

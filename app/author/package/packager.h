@@ -37,7 +37,8 @@ class Packager {
   // Call before the first `write`, with the pair that is written first.
   [[nodiscard]] Outcome<void> begin(const FramePair& pair);
   [[nodiscard]] Outcome<void> write(const FramePair& pair);
-  [[nodiscard]] Outcome<AuthorSummary> finish();
+  // `whole`: see FilmWriter::finish.
+  [[nodiscard]] Outcome<AuthorSummary> finish(bool whole);
 
  private:
   // On the depth's thread.

@@ -155,6 +155,18 @@ TEST_F(AuthorFilm, LeavesNothingWhenItIsInterrupted) {
   EXPECT_TRUE(made().empty());
 }
 
+TEST_F(AuthorFilm, SentOverTheNetworkItsSoundEndsWithThePicturesWhenItIsInterrupted) {
+  makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })}, {},
+           {{.codec = "aac", .length = std::chrono::seconds(60)}});
+  const auto stopAtTen = [&](std::uint64_t done, std::optional<std::uint64_t>) { stop_ = done == 10; };
+  const auto sent =
+      authorFilm({.url = folder_ / "film.mkv"}, kBackends, {.path = "udp://127.0.0.1:9"}, stop_, stopAtTen);
+  ASSERT_TRUE(sent.has_value()) << sent.error().error.message;
+  EXPECT_THAT(sent->kept, ElementsAre(testing::HasSubstr("sound aac")));
+  EXPECT_EQ(sent->totals.color.frames, 10u);
+  EXPECT_LT(sent->totals.file_bytes, 100'000u) << "a minute of sound has more";
+}
+
 TEST_F(AuthorFilm, LeavesNothingWhenTheSampleIsInterrupted) {
   const auto stopAtTwo = [&](std::uint64_t done, std::optional<std::uint64_t>) { stop_ = done == 2; };
   const auto summary = authorSample({.cols = 64, .rows = 48}, {.path = folder_ / "out.mkv"}, stop_, stopAtTwo);
