@@ -31,7 +31,8 @@ Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backen
   if (hasTwoViews(packing)) return source;
   if (source.packing != Packing::Auto || reader.info().has_depth) return failOn(source.url, kNotTwoViews);
   const auto first = reader.next();
-  const auto views = first && *first ? findViews((*first)->color) : std::nullopt;
+  if (!first) return failOn(reader.failedThing(), first.error());
+  const auto views = *first ? findViews((*first)->color) : std::nullopt;
   if (!views) return failOn(source.url, kNotTwoViews);
   source.packing = *views;
   return source;
