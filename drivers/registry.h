@@ -88,6 +88,9 @@ struct DeviceState {
 };
 [[nodiscard]] std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock);
 
+// For a program that encodes nothing: bounds the memory that a damaged film makes a decoder ask for.
+void boundDecoderMemory() noexcept;
+
 // Stops the motors of every haptic device of the process; for handlers of fatal signals.
 void stopAllMotors() noexcept;
 

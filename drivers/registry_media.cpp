@@ -149,4 +149,8 @@ std::unique_ptr<SubtitleDecoder> makeSubtitleDecoder() {
   return makeFfmpegSubtitleDecoder();
 }
 
+void boundDecoderMemory() noexcept {
+  boundFfmpegBlocks();
+}
+
 }  // namespace relievo::drivers

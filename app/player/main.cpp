@@ -140,6 +140,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const CancelsAnswers cancels(stop);
   applyLogLevels(config);
+  drivers::boundDecoderMemory();
   if (options.verbose) setLogLevel(LogLevel::Debug);
   if (auto loaded = loadPlayFiles(options); !loaded) return tell(loaded.error());
   if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
@@ -176,6 +177,7 @@ int play(PlayOptions options, const FileConfig& config) {
 }
 
 int probeSource(const ProbeOptions& options) {
+  drivers::boundDecoderMemory();
   const auto result = probe(options.source, realBackends());
   if (!result) return tell(result.error());
   if (options.json) std::fputs(probeToJson(*result).c_str(), stdout);

@@ -26,7 +26,7 @@ struct ResamplerDeleter {
 
 class FfmpegAudioDecoder final : public AudioDecoder {
  public:
-  FfmpegAudioDecoder() noexcept { prepareLibrary(); }
+  FfmpegAudioDecoder() noexcept { silenceLibrary(); }
   [[nodiscard]] const char* name() const noexcept override { return "ffmpeg"; }
 
  private:

@@ -38,7 +38,7 @@ const AVCodec* decoderOf(AVCodecID id, bool alpha) noexcept {
 
 class FfmpegDecoder final : public VideoDecoder {
  public:
-  FfmpegDecoder() noexcept { prepareLibrary(); }
+  FfmpegDecoder() noexcept { silenceLibrary(); }
 
   [[nodiscard]] Capabilities capabilities() const noexcept override {
     return {.name = "ffmpeg", .max_held_frames = kMaxHeldFrames, .hardware = false};

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "drivers/ffmpeg/ffmpeg.h"
 #include "platform/unique_fd.h"
 
 extern "C" {
@@ -14,17 +15,20 @@ extern "C" {
 #include <libavutil/mem.h>
 }
 
+namespace relievo {
+
+void boundFfmpegBlocks() noexcept {
+  constexpr std::size_t kMost = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
+  av_max_alloc(kMost);
+}
+
+}  // namespace relievo
+
 namespace relievo::ffmpeg {
-namespace {
 
-constexpr std::size_t kMostBlock = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
-
-}  // namespace
-
-void prepareLibrary() noexcept {
+void silenceLibrary() noexcept {
   static const bool done = [] {
     av_log_set_level(AV_LOG_QUIET);
-    av_max_alloc(kMostBlock);
     return true;
   }();
   static_cast<void>(done);

@@ -55,9 +55,8 @@ template <class T, class Deleter>
   return std::get_deleter<Deleter>(owner) == nullptr ? nullptr : static_cast<const T*>(owner.get());
 }
 
-// Stops FFmpeg from printing to stderr, since the program prints its own messages, and from allocating blocks that no
-// picture needs: a text or colour profile in a picture unpacks to a thousand times its size.
-void prepareLibrary() noexcept;
+// Stops FFmpeg from printing to stderr, since the program prints its own messages.
+void silenceLibrary() noexcept;
 
 [[nodiscard]] Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept;
 

@@ -44,7 +44,7 @@ constexpr Duration kLongestFlowGap = std::chrono::seconds(2);
 
 class FfmpegSource final : public MediaSource {
  public:
-  FfmpegSource() noexcept { prepareLibrary(); }
+  FfmpegSource() noexcept { silenceLibrary(); }
   ~FfmpegSource() override { close(); }
 
  private:

@@ -69,7 +69,7 @@ SubtitlePicture pictureOf(const AVSubtitleRect& rect) {
 
 class FfmpegSubtitleDecoder final : public SubtitleDecoder {
  public:
-  FfmpegSubtitleDecoder() noexcept { prepareLibrary(); }
+  FfmpegSubtitleDecoder() noexcept { silenceLibrary(); }
 
   Result<void> open(const StreamInfo& stream) override {
     packet_.reset(av_packet_alloc());

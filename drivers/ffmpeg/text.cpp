@@ -36,7 +36,7 @@ Result<std::string> readFile(const std::string& path, std::size_t most_bytes) {
 }  // namespace
 
 Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
-  prepareLibrary();
+  silenceLibrary();
   const auto cancel = [](void* flag) { return static_cast<const std::atomic<bool>*>(flag)->load() ? 1 : 0; };
   const AVIOInterruptCB interrupt{.callback = cancel, .opaque = const_cast<std::atomic<bool>*>(&cancelled)};
   auto address = parseAddress(url);
