@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <utility>
@@ -16,12 +17,15 @@
 
 namespace relievo {
 
+// Whether a method heeds that a frame belongs to another shot. The paper's methods know frames and times alone.
+enum class Cuts : std::uint8_t { Heeded, Unknown };
+
 // A view for one tick. Vertices are computed on demand; nothing is built.
 class SurfaceInTime {
  public:
   SurfaceInTime() = default;
   // The first and the last frame hold outside the window. Count 0: an empty surface, holes everywhere.
-  SurfaceInTime(const SurfaceWindow& window, MediaTime now, TimeLaw law) RELIEVO_RT {
+  SurfaceInTime(const SurfaceWindow& window, MediaTime now, TimeLaw law, Cuts cuts = Cuts::Heeded) RELIEVO_RT {
     if (window.count == 0) return;
     int k = window.count - 1;
     while (k > 0 && window.frames[static_cast<std::size_t>(k)].time > now) --k;
@@ -29,7 +33,8 @@ class SurfaceInTime {
     present_ = &present.field;
     if (law == TimeLaw::Hold || k + 1 == window.count || now <= present.time) return;
     const TimedSurface& next = window.frames[static_cast<std::size_t>(k) + 1];
-    if (next.repeats || next.shot != present.shot) return;  // before a cut the old scene stands
+    if (next.repeats) return;
+    if (cuts == Cuts::Heeded && next.shot != present.shot) return;  // before a cut the old scene stands
     next_ = &next.field;
     // Paper, eq. 1, with the frame period taken from the timestamps.
     weight_ = toSeconds(now - present.time) / toSeconds(next.time - present.time);

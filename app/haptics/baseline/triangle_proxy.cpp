@@ -46,7 +46,8 @@ Touch TriangleProxy::update(const glm::dvec3& hip_mm, const SurfaceWindow& windo
     last_ = Touch{.proxy_mm = hip_mm};
     height_under_proxy_ = HeightField::kHole;
   }
-  const SurfaceInTime surface(window, now, parts_.time);
+  const Cuts cuts = parts_.walk == Walk::Graph ? Cuts::Unknown : Cuts::Heeded;
+  const SurfaceInTime surface(window, now, parts_.time, cuts);
   const Touch touch = followFinger(surface, carriedProxy(surface), hip_mm, stiffness_, parts_.walk);
   last_ = letThroughAtJump(touch, last_.force_n, parts_.jump_threshold_n, hip_mm);
   if (parts_.carry) height_under_proxy_ = surfaceHeight(surface, last_.proxy_mm.x, last_.proxy_mm.y);

@@ -53,6 +53,8 @@ TEST(SurfaceInTime, TheOldSceneStandsUntilTheCut) {
   w.frames[2].shot = w.frames[3].shot = 1;
   EXPECT_DOUBLE_EQ(heightAt(w, 0.059, TimeLaw::Linear), 200 * 40.0 / 255);
   EXPECT_NEAR(heightAt(w, 0.08, TimeLaw::Linear), 200 * 40.0 / 255, 1e-9) << "halfway from 150 to 250";
+  const SurfaceInTime paper(w, mediaTime(0.05), TimeLaw::Linear, Cuts::Unknown);
+  EXPECT_NEAR(paper.vertexHeight(0, 0), 175 * 40.0 / 255, 1e-9) << "halfway from 200 to 150";
 }
 
 TEST(SurfaceInTime, LinearFollowsTheTimestampsNotANominalRate) {
