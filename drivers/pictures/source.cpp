@@ -166,9 +166,10 @@ class PicturesSource final : public MediaSource {
     for (std::size_t i = 0; i < pictures.size(); ++i) entries_.push_back({pictures[i].time, stream, i});
   }
 
-  // Beside depth.
+  // A view, or beside depth.
   [[nodiscard]] bool isColor(const Entry& entry) const {
-    return entry.stream == 0 && !recording_.color.empty() && !recording_.depth.empty();
+    const bool beside_depth = entry.stream == 0 && !recording_.color.empty() && !recording_.depth.empty();
+    return recording_.views || beside_depth;
   }
 
   [[nodiscard]] const std::string& pathOf(const Entry& entry) const {
