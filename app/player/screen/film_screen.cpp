@@ -83,10 +83,9 @@ Result<bool> FilmScreen::show(const FramePair& pair, MediaTime place, std::optio
 
 Result<void> FilmScreen::redraw(const FingerMarks& fingers, MediaTime place, MonotonicTime next_picture,
                                 MonotonicTime now) {
-  if (!redraw_) {
-    if (now < drawn_at_ + kRedrawPeriod || next_picture < now + kRedrawPeriod) return {};
-    if (!picture_.away() && !movedVisibly(fingers, drawn_fingers_) && !picture_.subtitlesChange(place)) return {};
-  }
+  if (!redraw_ && (now < drawn_at_ + kRedrawPeriod || next_picture < now + kRedrawPeriod)) return {};
+  const bool words = picture_.subtitlesChange(place);  // whatever else the drawing is for
+  if (!redraw_ && !words && !picture_.away() && !movedVisibly(fingers, drawn_fingers_)) return {};
   const auto drawn = draw(fingers, now);
   return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
