@@ -137,14 +137,17 @@ void PairReader::Impl::takeSmoothest(TrackPlan& plan) {
   constexpr double kClearly = 2;
   const MediaSource& source = sources.color()->source();
   const StreamInfo* smoothest = plan.depth;
+  const auto tracks = likelyDepthTracks(source);
+  if (std::ranges::all_of(tracks, [&](auto* track) { return track == plan.depth; })) return;
   double least = 1, planned = 1;
-  for (const StreamInfo* const track : likelyDepthTracks(source)) {
+  for (const StreamInfo* const track : tracks) {
     const auto scout = scoutOf(options.url, track->index);
     if (!scout) return;
     const auto picture = scout->next(0);
     if (!picture || !*picture || (*picture)->model != ColorModel::Gray) return;
     const double roughness = roughnessOf(**picture);
     if (track == plan.depth) planned = roughness;
+    if (track == plan.depth && roughness == 1) return;  // perhaps a sensor that has not begun to measure
     if (roughness < least) least = roughness, smoothest = track;
   }
   if (smoothest == plan.depth || planned <= kClearly * least) return;

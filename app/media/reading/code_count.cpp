@@ -128,7 +128,9 @@ bool isScattered(const Frame& depth) {
 }
 
 double roughnessOf(const Frame& gray) {
+  constexpr int kFewest = 32;
   const CodeCount count(gray);
+  if (count.kinds() < kFewest) return 1;
   const std::uint32_t top = (1u << count.bits()) - 1;
   std::vector<std::uint32_t> differences;
   for (int r = 0; r < gray.height; ++r) {

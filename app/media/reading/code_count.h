@@ -66,7 +66,7 @@ class CodeCount {
 [[nodiscard]] bool isScattered(const Frame& depth);
 
 // How much neighbouring samples differ, as a share of the range of the codes: the median. Depth is smooth, infrared and
-// other photos are not. 1 if the picture shows nothing.
+// other photos are not. 1 if the picture shows nothing, or a few codes alone: labels, confidence, a mask.
 [[nodiscard]] double roughnessOf(const Frame& gray);
 
 // True for RGB of more than 8 bits whose samples are all gray: each component is the code.
