@@ -60,6 +60,7 @@ void SubtitleTrack::restart() {
 void SubtitleTrack::readBefore(MediaSource& source, int leading, MediaTime target) {
   if (stream_ < 0 || before_ == Duration(0) || target <= MediaTime{}) return;
   Duration before = before_;
+  std::optional<MediaTime> begun;
   for (int tries = 0; tries < kTriesBefore; ++tries, before = std::min(before / 2, before_)) {
     const MediaTime from = std::max(MediaTime{}, target - before);
     waiting_.clear();
@@ -81,6 +82,8 @@ void SubtitleTrack::readBefore(MediaSource& source, int leading, MediaTime targe
     // From a key frame on, which may be long before `from`: what so many bytes last, and not how far they came.
     const Duration covered = reached - first.value_or(reached);
     before_ = std::min(before_, std::max(covered / 2, kLeastBefore));
+    if (tries > 0 && first == begun) return;  // the same key frame: no nearer one is to be had
+    begun = first;
   }
 }
 
