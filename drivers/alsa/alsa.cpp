@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <memory>
@@ -44,7 +45,7 @@ Error openError(int code) noexcept {
 
 // What a helper thread opens; closed unless it is taken.
 struct OpenedCard {
-  explicit OpenedCard(const AudioFormat& wished) : format(wished) {}
+  explicit OpenedCard(const AudioFormat& asked) : wished(asked), format(asked) {}
   ~OpenedCard() {
     if (pcm != nullptr) snd_pcm_close(pcm);
   }
@@ -55,6 +56,7 @@ struct OpenedCard {
     refused = snd_pcm_open(&pcm, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
     if (refused < 0) pcm = nullptr;
     else unfit = configure();
+    done = true;
   }
 
   int configure() {
@@ -90,7 +92,9 @@ struct OpenedCard {
     return snd_pcm_sw_params(pcm, software);
   }
 
+  const AudioFormat wished;
   AudioFormat format;
+  std::atomic<bool> done = false;  // what follows stands, and belongs to the player's thread
   snd_pcm_t* pcm = nullptr;
   int refused = 0, unfit = 0;  // ALSA's errors
   bool as_float = true;
@@ -110,11 +114,17 @@ class AlsaOutput final : public AudioOutput {
 
  private:
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    const auto card = std::make_shared<OpenedCard>(wished);
-    // A plug-in for a sound server waits for the server's answer, also in non-blocking mode.
-    const auto asked = server_.ask("/", [card, device = device_] { card->open(device); });
-    if (!asked && asked.error().code != ErrorCode::Timeout) return std::unexpected(asked.error());
-    if (!asked) return fail(ErrorCode::Timeout, "the sound server does not answer within 3 s; start it anew");
+    constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the sound server does not answer within 3 s; start it anew"};
+    std::shared_ptr<OpenedCard> card = late_;
+    if (card != nullptr && !card->done) return std::unexpected(kNoAnswer);
+    late_ = nullptr;
+    if (card == nullptr || card->wished.rate_hz != wished.rate_hz || card->wished.channels != wished.channels) {
+      card = std::make_shared<OpenedCard>(wished);
+      // A plug-in for a sound server waits for the server's answer, also in non-blocking mode.
+      const auto asked = server_.ask("/", [card, device = device_] { card->open(device); });
+      if (!asked && asked.error().code == ErrorCode::Timeout) late_ = card;
+      if (!asked) return std::unexpected(late_ != nullptr ? kNoAnswer : asked.error());
+    }
     if (card->refused < 0) return std::unexpected(openError(card->refused));
     if (card->unfit < 0) {
       return fail(ErrorCode::Unsupported,
@@ -195,6 +205,7 @@ class AlsaOutput final : public AudioOutput {
   const std::string device_;
   const Clock& clock_;
   FileSystemAnswers server_{kServerPatience};
+  std::shared_ptr<OpenedCard> late_;  // a server that answers later is taken at the next try
   snd_pcm_t* pcm_ = nullptr;
   bool as_float_ = true;
   Duration buffer_{0};
