@@ -162,8 +162,8 @@ bool PlayReport::addFault(double time_s, std::string what, std::string done) {
   }
   const bool known = std::any_of(faults.begin(), faults.end(), [&](const FaultEntry& f) { return f.what == what; });
   constexpr std::size_t kMost = 1000;  // of a film that loops for months; a fault of another name is kept even then
-  if (known && faults.size() >= kMost) return false;
-  faults.push_back({time_s, std::move(what), std::move(done)});
+  const std::size_t most = known ? kMost : 2 * kMost;
+  if (faults.size() < most) faults.push_back({time_s, std::move(what), std::move(done)});
   return !known;
 }
 
