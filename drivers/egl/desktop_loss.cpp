@@ -6,6 +6,7 @@
 #include <SDL_syswm.h>
 #include <poll.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <system_error>
@@ -20,6 +21,8 @@ namespace {
 constexpr int kExitCode = 1;
 constexpr std::chrono::seconds kPatience{1};  // for Xlib's own end, in the thread that draws
 
+std::atomic<bool> is_ending = false;
+
 void tellLoss() noexcept {
   log(LogLevel::Error, "window", "the X server has ended or the connection to it is broken; start relievo again");
 }
@@ -29,10 +32,11 @@ int onIoError(::Display*) {
   std::exit(kExitCode);
 }
 
-[[noreturn]] void waitForEnd(int connection) noexcept {
+void waitForEnd(int connection) noexcept {
   pollfd end{.fd = connection, .events = POLLRDHUP, .revents = 0};
   while (::poll(&end, 1, -1) <= 0) continue;  // a signal
   std::this_thread::sleep_for(kPatience);
+  if (is_ending) return;
   tellLoss();
   std::quick_exit(kExitCode);
 }
@@ -56,9 +60,11 @@ void endWithXServer(SDL_Window& window) noexcept {
   const auto number = find<int(::Display*)>(x11, "XConnectionNumber");
   if (on_error == nullptr || number == nullptr) return;
   on_error(onIoError);
+  std::atexit([] { is_ending = true; });
   try {
     std::thread(waitForEnd, number(info.info.x11.display)).detach();
-  } catch (const std::system_error&) {  // no thread can be made: Xlib's end alone is left
+  } catch (const std::system_error& error) {  // Xlib's end alone is left
+    log(LogLevel::Debug, "window", "the X server is not watched: %s", error.what());
   }
 }
 
