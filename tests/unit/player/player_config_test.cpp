@@ -139,6 +139,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"slang", R"("de")"},
                                                       {"osd", "true"},
                                                       {"software", "true"},
+                                                      {"start", R"("1:30")"},
                                                       {"loop", "true"},
                                                       {"duration", "12.5"},
                                                       {"resume", "true"},
