@@ -123,6 +123,22 @@ TEST_F(StereoFolder, OfFoldersIsAFilmOfStereoPairs) {
   EXPECT_EQ(test::sampleAt(film.pair.right, 0, 0, 0), 100u);
 }
 
+// Of 12 bits, as machine vision's cameras store them: both views are stretched to the same brightness.
+TEST_F(StereoFolder, OfPgmsHasViewsOfOneBrightness) {
+  for (const char* view : {"left", "right"}) {
+    std::filesystem::create_directories(folder_ / view);
+    for (int k = 0; k < 3; ++k) {
+      std::ofstream file(folder_ / (std::string(view) + "/" + std::to_string(k) + ".pgm"), std::ios::binary);
+      file << "P5\n32 24\n4095\n";
+      for (int i = 0; i < 32 * 24; ++i) file.put('\x08').put(static_cast<char>(i % 251));
+    }
+  }
+  const test::OpenedFilm film = open();
+  ASSERT_FALSE(film.pair.color.empty());
+  ASSERT_FALSE(film.pair.right.empty());
+  EXPECT_EQ(test::sampleAt(film.pair.color, 0, 4, 4), test::sampleAt(film.pair.right, 0, 4, 4));
+}
+
 // The left view is the colour; the right one is left out with a word.
 TEST_F(StereoFolder, OfTwoViewsAndTheirDepthIsAFilmOfTheLeftView) {
   const auto expectLeftView = [&](const std::string& name, std::size_t left_out) {

@@ -52,6 +52,16 @@ TEST_F(SubtitlesOfAStandingPicture, ComeAndGoAtTheirTimes) {
   EXPECT_FALSE(hasWordsAt(3.1, 200 * kMs));
 }
 
+TEST_F(SubtitlesOfAStandingPicture, ComeWhileAFingerMoves) {
+  EXPECT_FALSE(hasWordsWhenShownAt(0));
+  for (int i = 1; i <= 5; ++i) {
+    clock_.sleepUntil(clock_.now() + 500 * kMs);
+    const FingerMarks finger{FingerMark{.position_mm = {i, 0, 0}}};
+    EXPECT_TRUE(screen_.redraw(finger, mediaTime(0.5 * i), MonotonicTime::max(), clock_.now()));
+  }
+  EXPECT_TRUE(hasWords());
+}
+
 // As after a seek.
 TEST_F(SubtitlesOfAStandingPicture, AreThoseOfThePlaceWhereItIsShown) {
   EXPECT_TRUE(hasWordsWhenShownAt(2.5));
