@@ -64,7 +64,7 @@ void endWithXServer(SDL_Window& window) noexcept {
   try {
     std::thread(waitForEnd, number(info.info.x11.display)).detach();
   } catch (const std::system_error& error) {  // Xlib's end alone is left
-    log(LogLevel::Debug, "window", "the X server is not watched: %s", error.what());
+    log(LogLevel::Debug, "render", "the X server is not watched: %s", error.what());
   }
 }
 
