@@ -2,6 +2,7 @@
 // Parses a command line with CLI11, in the project's own words: help, version, and the one line for wrong use.
 #include <algorithm>
 #include <cstdio>
+#include <ranges>
 #include <span>
 #include <sstream>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "app/cli/options.h"
 #include "app/cli/program.h"
+#include "platform/files/answered_place.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -203,6 +205,10 @@ void setHelp(CLI::App& app, const std::string& version) {
 
 }  // namespace
 
+std::string singleWord(const std::string& word) {
+  return word.starts_with('[') && word.ends_with(']') && isThere(word) ? "./" + word : word;
+}
+
 std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const char* const* argv) {
   setHelp(program, program.get_name() + " " RELIEVO_VERSION);
   const std::span words(argv, static_cast<std::size_t>(argc));
@@ -212,7 +218,9 @@ std::expected<void, int> parseCommandLine(CLI::App& program, int argc, const cha
     return std::unexpected(kExitWrongUse);
   }
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> last_first;
+    for (const char* const word : std::views::reverse(words.subspan(1))) last_first.push_back(singleWord(word));
+    program.parse(std::move(last_first));
     return {};
   } catch (const KindsAsked&) {
     std::fputs(kindsText().c_str(), stdout);

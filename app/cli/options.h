@@ -35,6 +35,10 @@ struct KindsAsked final : std::exception {};
 // "; did you mean NEAR?" if one of the words is near, else "".
 [[nodiscard]] std::string meant(std::string_view wanted, std::span<const std::string> words);
 
+// The word as CLI11 takes it whole: where many are allowed, it takes "[2019,2020]" as two. If that is a file's name,
+// "./[2019,2020]".
+[[nodiscard]] std::string singleWord(const std::string& word);
+
 // Adds an option that takes one of a few words, in small or capital letters. `value` must outlive the parsing and holds
 // the default.
 template <class T>

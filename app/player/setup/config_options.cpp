@@ -34,7 +34,9 @@ std::string placed(const std::string& place, const std::string& key, std::string
 
 Outcome<void> give(CLI::Option& option, const ConfigEntry& entry, const std::string& place) {
   try {
-    option.add_result(entry.words);
+    std::vector<std::string> words = entry.words;
+    std::ranges::transform(words, words.begin(), singleWord);
+    option.add_result(std::move(words));
     option.run_callback();
     return {};
   } catch (const WordFailure& failure) {

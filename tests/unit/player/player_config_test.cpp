@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <regex>
@@ -231,6 +232,21 @@ TEST_F(PlayConfig, LevelsOfTheLogAreForAllAndForAreasThatDiffer) {
   EXPECT_EQ(logLevel("film.mkv"), LogLevel::Error);
   setLogLevel(LogLevel::Info);
   EXPECT_EQ(logLevel("haptic"), LogLevel::Info);
+}
+
+// CLI11 would take it as a list of names.
+TEST_F(PlayConfig, AFilmsNameMayStandInBrackets) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_ / "");
+  for (const std::string name : {"[2019,2020]", "[Group] Show [1080p]"}) {
+    std::ofstream{name};
+    const SourceOptions given = play("", {name}).player.source;
+    const PlayOptions listed = play("[play]\nsource = [\"" + name + "\", \"b.mkv\"]\n", {});
+    EXPECT_EQ(given.url, "./" + name);
+    EXPECT_EQ(listed.player.source.url, "./" + name);
+    EXPECT_EQ(listed.player.more, std::vector<std::string>{"b.mkv"});
+  }
+  std::filesystem::current_path(before);
 }
 
 }  // namespace
