@@ -52,10 +52,13 @@ TEST_P(Programs, AnOptionWithoutItsValueIsOneLineThatSaysHowItIsWritten) {
   const std::string words = program == "relievo"       ? "film.mkv --fps"
                             : program == "relievo-lab" ? "trace --fps"
                                                        : "--fps";
-  const auto said = run(words);
-  EXPECT_EQ(said.exit_code, 2);
   const std::string command = program == "relievo" ? " play" : program == "relievo-lab" ? " trace" : "";
-  EXPECT_EQ(said.err, program + ": --fps: its value is missing; write --fps F; see " + program + command + " --help\n");
+  for (const std::string& given : {words, words + "= film.mkv"}) {
+    const auto said = run(given);
+    EXPECT_EQ(said.exit_code, 2);
+    EXPECT_EQ(said.err,
+              program + ": --fps: its value is missing; write --fps F; see " + program + command + " --help\n");
+  }
 }
 
 TEST_P(Programs, HelpIsOnStdoutAndNamesTheVersionsOption) {
