@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/film/requantised.h"
@@ -22,12 +22,6 @@ namespace relievo {
 namespace {
 
 constexpr double kPlayersBudgetMs = 0.6 * 1000 / 24;  // what the player allows a relief of a film of 24 pictures/s
-
-double processorMs() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 // One film of an axis, which differs from the base film in one thing; the base film is on every axis.
 struct Place {
@@ -135,9 +129,9 @@ class Stereo {
       const Matcher match = who.make(format);
       std::vector<Frame> depth;
       for (std::size_t i = 0; i < views->left.size(); ++i) {
-        const double begin = processorMs();
-        depth.push_back(match(views->left[i], views->right[i]));
-        if (i > 0) figures.ms.push_back(processorMs() - begin);  // the first one of a shot takes longer
+        auto [picture, ms] = match(views->left[i], views->right[i]);
+        depth.push_back(std::move(picture));
+        if (i > 0) figures.ms.push_back(ms);  // the first one of a shot takes longer
       }
       if (auto done = feel(scene, depth, exact, figures); !done) return done;
     }

@@ -2,7 +2,9 @@
 #include "app/lab/measure/stereo_matchers.h"
 
 #include <cmath>
+#include <ctime>
 #include <memory>
+#include <utility>
 
 #include "app/stereo/quick/quick_depth.h"
 #include "app/stereo/stereo_depth.h"
@@ -10,6 +12,12 @@
 
 namespace relievo {
 namespace {
+
+double processorMs() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
 
 DisparityRange rangeOf(const ViewFilmFormat& format) {
   constexpr double kSpare = 2;  // pixels
@@ -22,13 +30,16 @@ Frame depthOf(const ViewFilmFormat& format, const DisparityMap& map, MediaTime t
                           [&](std::size_t i) { return static_cast<double>(map.pixels[i]) / map.cols; });
 }
 
-Frame quickDepthOf(const ViewFilmFormat& format, QuickDepth& quick, const Frame& left, const Frame& right) {
+MatchedPair matchQuickly(const ViewFilmFormat& format, QuickDepth& quick, const Frame& left, const Frame& right) {
+  const double begin = processorMs();
   const Frame codes = quick.depthOf(left, right);
+  const double ms = processorMs() - begin;
   const QuickDepth::Range range = quick.range().value_or(QuickDepth::Range{});
   const auto* const code = reinterpret_cast<const std::uint16_t*>(codes.planes[0].data);  // as grayFrame lays them
-  return depthOfDisparity(format, codes.width, codes.height, codes.pts, [&](std::size_t i) {
+  Frame depth = depthOfDisparity(format, codes.width, codes.height, codes.pts, [&](std::size_t i) {
     return static_cast<double>(range.low) + code[i] / 65535.0 * static_cast<double>(range.high - range.low);
   });
+  return {std::move(depth), ms};
 }
 
 }  // namespace
@@ -37,14 +48,18 @@ Matcher Contestant::make(const ViewFilmFormat& format) const {
   if (quick_cols > 0) {
     const auto quick = std::make_shared<QuickDepth>();
     quick->setMatchedCols(quick_cols);
-    return [format, quick](const Frame& left, const Frame& right) { return quickDepthOf(format, *quick, left, right); };
+    return [format, quick](const Frame& left, const Frame& right) { return matchQuickly(format, *quick, left, right); };
   }
   const bool author = name == kAuthors;
   const auto plain = name == "BM" ? PlainMatcher::Blocks : PlainMatcher::SemiGlobal;
   return [format, author, plain](const Frame& left, const Frame& right) {
+    double begin = processorMs();
     const ViewPicture a = readView(left), b = readView(right);
+    if (!author) begin = processorMs();  // it needs only the luma, which is a plane of the frame
     const DisparityRange range = rangeOf(format);
-    return depthOf(format, author ? disparityOf(a, b, range) : plainDisparityOf(a, b, range, plain), left.pts);
+    const DisparityMap map = author ? disparityOf(a, b, range) : plainDisparityOf(a, b, range, plain);
+    const double ms = processorMs() - begin;
+    return MatchedPair{depthOf(format, map, left.pts), ms};
   };
 }
 

@@ -12,8 +12,14 @@ namespace relievo {
 
 inline constexpr const char* kAuthors = "author";  // the name of relievo-author's matcher
 
-// Returns the depth of one pair of views. A matcher may use the pairs that it was given before.
-using Matcher = std::function<Frame(const Frame& left, const Frame& right)>;
+// The depth of one pair of views, and the processor's time that matching them took.
+struct MatchedPair {
+  Frame depth;
+  double ms = 0;
+};
+
+// A matcher may use the pairs that it was given before.
+using Matcher = std::function<MatchedPair(const Frame& left, const Frame& right)>;
 
 struct Contestant {
   std::string name;
