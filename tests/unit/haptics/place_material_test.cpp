@@ -151,6 +151,17 @@ TEST(PlaceMaterial, TextureIsThatOfThePlace) {
   EXPECT_LT(swing(-40), 1e-3);
 }
 
+// The spring is short where a soft place turns stiff, and a trough is no deeper than the spring is long.
+TEST(PlaceMaterial, NoRipplePullsWhereASoftPlaceTurnsStiff) {
+  const Material full{.stiffness_n_per_mm = 255 * 0.004, .friction = {}, .texture = Texture{0.2, 2}};
+  auto method = methodOf(full);
+  const MaterialCodes soft{5, 0, 255}, stiff{250, 0, 255};
+  const SurfaceWindow w = plane([&](double x, double) { return x < 0 ? soft : stiff; });
+  Finger finger(method, w);
+  static_cast<void>(finger.press(-4, 2));
+  for (double x = -4; x < 4; x += 0.05) ASSERT_GE(finger.to({x, x + 4, kFlat - 2}).z, 0) << x;
+}
+
 TEST(PlaceMaterial, AStrokeOverTheMapIsGivenNoEnergy) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1, 1);
