@@ -110,9 +110,8 @@ int rotationOf(const AVStream& stream) noexcept {
 std::optional<Duration> startOfProgramme(const AVFormatContext& context) noexcept {
   std::optional<Duration> start;
   for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
-    const StreamKind kind = kindOf(*stream);
-    const bool plays = kind == StreamKind::Video || kind == StreamKind::Audio;
-    if (!plays || stream->start_time == AV_NOPTS_VALUE) continue;
+    if (stream->start_time == AV_NOPTS_VALUE) continue;
+    if (const auto kind = kindOf(*stream); kind != StreamKind::Video && kind != StreamKind::Audio) continue;
     const Duration own = durationFrom(stream->start_time, stream->time_base);
     start = std::min(start.value_or(own), own);
   }
@@ -206,10 +205,9 @@ Duration startOf(const AVFormatContext& context) noexcept {
   if (const auto start = startOfProgramme(context); start && context.nb_programs > 1) return *start;
   if (context.start_time == AV_NOPTS_VALUE) return Duration(0);
   const Duration start = durationFrom(context.start_time, kMicrosecond);
-  for (unsigned i = 0; i < context.nb_streams; ++i) {
-    const AVStream& stream = *context.streams[i];
-    if (stream.start_time == AV_NOPTS_VALUE) continue;
-    const Duration exact = durationFrom(stream.start_time, stream.time_base);
+  for (const AVStream* const stream : std::span(context.streams, context.nb_streams)) {
+    if (stream->start_time == AV_NOPTS_VALUE) continue;
+    const Duration exact = durationFrom(stream->start_time, stream->time_base);
     if (std::chrono::abs(exact - start) <= std::chrono::microseconds(1)) return exact;
   }
   return start;

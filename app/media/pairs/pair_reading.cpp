@@ -7,7 +7,6 @@
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
-#include "app/media/reading/depth_tracks.h"
 #include "app/media/reading/float_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/media/reading/depth_tracks.h"
 #include "app/scene/material.h"
 #include "hal/media/media_names.h"
 #include "platform/lower_case.h"

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "app/scene/depth_calibration.h"
 #include "hal/media/frame.h"
@@ -61,6 +62,10 @@ struct TrackPlan {
 // one of gray; else the second.
 // Of one video track: that one. Null if there is none. Material tracks do not count.
 [[nodiscard]] const StreamInfo* findDepthTrack(const MediaSource& source);
+// The tracks of gray of more than 8 bits, any of which may be the depth; none if a track is marked as depth.
+[[nodiscard]] std::vector<const StreamInfo*> likelyDepthTracks(const MediaSource& source);
+// The track that is shown with `depth`: no infrared, if there is another.
+[[nodiscard]] const StreamInfo* findColorTrack(const MediaSource& source, const StreamInfo* depth);
 
 // Plans a source that holds the colour, and the depth too unless `depth_elsewhere`. Auto decides first by a tag
 // DEPTH_PACKING=sbs|tb|sbs-depth-first|tb-depth-first|alpha of the container or the track, then by the presence of a

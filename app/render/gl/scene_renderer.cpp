@@ -123,21 +123,15 @@ Result<void> SceneRenderer::setFrame(const Frame& color, const Frame& depth, con
                                      const DisplayVolume& volume, const Frame& right) {
   Impl& impl = *impl_;
   if (auto drawable = ColorPicture::check(color); !drawable) return drawable;
-  if (!right.empty()) {
-    if (auto drawable = ColorPicture::check(right); !drawable) return drawable;
-  }
-  HeightField field;
-  if (!depth.empty()) {
-    auto made = HeightField::make(depth, calibration, volume);
-    if (!made) return std::unexpected(made.error());
-    field = *made;
-  }
+  if (auto drawable = ColorPicture::check(right.empty() ? color : right); !drawable) return drawable;
+  const auto field = depth.empty() ? HeightField() : HeightField::make(depth, calibration, volume);
+  if (!field) return std::unexpected(field.error());
   if (auto set = impl.picture.setFrame(color); !set) return set;
   impl.has_right = !right.empty();
   if (impl.has_right) {
     if (auto set = impl.right.setFrame(right); !set) return set;
   }
-  impl.field = field;
+  impl.field = *field;
   impl.depth = depth;  // keeps the samples of `field` alive, so both change together
   impl.volume = volume;
   impl.relief.forgetPicture();
