@@ -105,8 +105,8 @@ Result<Duration> WindowDisplay::showFrame() {
 }
 
 void WindowDisplay::nameFilm(const AnnouncedFilm& film) {
-  SDL_SetWindowTitle(window_, film.title.empty() ? kWindowTitle : (film.title + " - " + kWindowTitle).c_str());
   if (film_size_ && film.width > 0 && film.height > 0) takeSize(film.width, film.height);
+  SDL_SetWindowTitle(window_, film.title.empty() ? kWindowTitle : (film.title + " - " + kWindowTitle).c_str());
 }
 
 void WindowDisplay::closeDisplay() noexcept {
