@@ -109,25 +109,40 @@ Duration lastPageGone(const AVFormatContext& context, const FileEnd::Reached& en
   return page.size() > 0 && some.end() - page.begin() > 5 && (page.begin()[5] & kLast) == 0 ? end.picture : Duration(0);
 }
 
-// How long the bytes that were not read would last, at the mean bit rate.
-Duration restOf(const FileEnd::Reached& end) noexcept {
-  const auto rest = static_cast<double>(end.bytes - end.read), read = static_cast<double>(end.read);
-  return fromSeconds(toSeconds(end.latest) * rest / read);
+// How long the bytes from `read` on would last, at the mean bit rate.
+Duration restOf(const FileEnd::Reached& end, std::int64_t read) noexcept {
+  const auto rest = static_cast<double>(end.bytes - read);
+  return fromSeconds(toSeconds(end.latest) * rest / static_cast<double>(read));
 }
 
-// A GIF file without its trailer behind the end of a block (GIF89a, 15 and 27), which other bytes may follow, or one in
-// which no block follows the picture that was read last: FFmpeg ends there.
+// What follows the last packet of a GIF file where a trailer or another block should stand (GIF89a, 15 to 27): FFmpeg
+// ends there, or takes all the rest for the last picture's.
 Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
-  constexpr std::array<std::uint8_t, 3> kBlocks{0x21, 0x2c, 0x3b};
-  std::array<std::uint8_t, 1> next{};
-  if (end.read > 0 && readAt(context, end.read, next) && std::ranges::find(kBlocks, next[0]) == kBlocks.end())
-    return restOf(end);
-  constexpr std::array<std::uint8_t, 2> kEnd{0, 0x3b};
-  std::array<std::uint8_t, 256> tail{};
-  const std::span some =
-      std::span(tail).first(static_cast<std::size_t>(std::min(end.bytes, static_cast<std::int64_t>(tail.size()))));
-  if (!readAt(context, end.bytes - static_cast<std::int64_t>(some.size()), some)) return Duration(0);
-  return std::ranges::search(some, kEnd).empty() ? end.picture : Duration(0);
+  constexpr std::uint8_t kExtension = 0x21, kImage = 0x2c, kTrailer = 0x3b;
+  std::int64_t at = end.last;
+  std::array<std::uint8_t, 13> bytes{};
+  const auto take = [&](std::int64_t count) {
+    const std::span some = std::span(bytes).first(static_cast<std::size_t>(count));
+    const bool there = readAt(context, at, some);
+    at += count;
+    return there;
+  };
+  const auto skipColors = [&](std::uint8_t flags) { at += (flags & 0x80) != 0 ? 6 << (flags & 7) : 0; };
+  const auto skipParts = [&] {  // each has its length before it; the last one has none
+    while (take(1) && bytes[0] != 0) at += bytes[0];
+  };
+  if (at == 0 && take(13)) skipColors(bytes[10]);
+  while (take(1)) {
+    if (bytes[0] == kTrailer) return Duration(0);
+    if (bytes[0] == kImage && take(9)) {
+      skipColors(bytes[8]);
+    } else if (bytes[0] != kExtension) {
+      return restOf(end, at);
+    }
+    ++at;  // an extension's label, or a picture's code size
+    skipParts();
+  }
+  return end.picture;
 }
 
 // A WMV file that is shorter than its header says: File Properties Object of the ASF specification, 3.2. FFmpeg then
@@ -238,6 +253,7 @@ void FileEnd::seek(MediaTime target) noexcept {
 void FileEnd::note(const Packet& packet, Duration length, bool broken, std::int64_t position) noexcept {
   const auto begin = packet.pts ? packet.pts : packet.dts;
   if (begin) reached_.latest = std::max(reached_.latest, begin->time_since_epoch() + length);
+  if (position >= 0) reached_.last = position;
   if (position >= 0) reached_.read = std::max(reached_.read, position + static_cast<std::int64_t>(packet.bytes));
   if (length > Duration(0)) reached_.picture = length;
   broken_ = broken;
@@ -265,7 +281,7 @@ Duration FileEnd::unread(const AVFormatContext& context, bool unreadable) const 
   const std::int64_t bytes = reached_.bytes, rest = bytes - reached_.read;
   if (reached_.read <= 0 || rest < bytes / 50) return Duration(0);
   if (!unreadable && (rest < kTailBytes || !endsInZeros(context, bytes))) return Duration(0);
-  return restOf(reached_);
+  return restOf(reached_, reached_.read);
 }
 
 }  // namespace relievo::ffmpeg

@@ -80,7 +80,8 @@ class FileEnd {
   struct Reached {
     Duration latest{0};      // end of all packets read so far, from the start on
     Duration picture{0};     // the last packet's length
-    std::int64_t read = 0;   // to here, in bytes
+    std::int64_t last = 0;   // where the last packet begins, in bytes
+    std::int64_t read = 0;   // to here
     std::int64_t bytes = 0;  // of the file as it was opened; 0: unknown
   };
 
