@@ -116,7 +116,8 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
 }
 
 bool isCoded(const ClipMeasure& m) {
-  const bool of_waves = m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > stepsUnderNoise(m);
+  const double steps = stepsUnderNoise(m);
+  const bool of_waves = grow(m.waves_mm, steps) || (m.ripples > kRipplesOfWaves && greatest(m.waves_mm) > steps);
   return m.ripples > kRipplesOfCodec && !of_waves;
 }
 

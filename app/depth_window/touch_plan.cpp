@@ -53,8 +53,6 @@ constexpr double kNoiseOverSlope = 0.578;
 // the force with the width for the worst slope, 1.34, 1.80, 2.41 with that for twice as much; 8 bits without a codec
 // .65 with the width for the worst slope, .46 with that for half.
 constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5, kCodedOfWorst = 2;
-// Steps that a codec's own waves have at most, on smooth scenes at crf 23.
-constexpr double kCodedWaves = 2;
 // Smoothing flattens what is narrower than itself, with the fourth power of the width: .05 % of the force at 1 mm on
 // the sphere and the face of relievo-lab speed-accuracy (noise of 1 %, widths of 2.4 to 3.8 mm: .03 to .05 %).
 constexpr double kFlattening = 5e-4;
@@ -88,10 +86,6 @@ void chooseLaws(const ClipMeasure& m, const LookAhead& ahead, bool noisy, bool f
   if (needsMean(m)) s.narrow_time = s.wide_time = TimeLaw::Mean;
   s.narrow_time = lawWithin(s.narrow_time, ahead.frames);
   s.wide_time = lawWithin(s.wide_time, ahead.frames);
-}
-
-Waves reliefIn(const ClipMeasure& m) {
-  return isCoded(m) ? beyond(kCodedWaves * stepsUnderNoise(m), m.waves_mm) : m.waves_mm;
 }
 
 std::string reasonFor(const TouchPlan& plan, const LookAhead& ahead) {
@@ -133,7 +127,8 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   };
   // The error of the force's direction is the error of the slope.
   const double steps = stepsUnderNoise(m);
-  const Waves waves = reliefIn(m);
+  const bool coded = isCoded(m);
+  const Waves waves = coded ? Waves{} : m.waves_mm;  // of the relief
   const auto errorOf = [&](double w, double of_worst) {
     const double of_noise = kNoiseOverSlope * m.noise_mm * through * apart(w, kWideSamples) / (w * w);
     const double of_waves = fine ? 0 : flattenedBy(w, waves);
@@ -143,7 +138,6 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   s.narrow_mm = fine ? kFineNarrowMm : kNarrowMm;
   s.wide_mm = kTimesTheNarrow * s.narrow_mm;
   double wider = s.wide_mm * kStepOfSearch;
-  const bool coded = isCoded(m);
   const double of_worst = coded ? kCodedOfWorst : kExpectedOfWorst;
   while (wider <= kWidestMm && errorOf(wider, of_worst) < errorOf(s.wide_mm, of_worst)) {
     s.wide_mm = wider;

@@ -23,6 +23,10 @@ constexpr double kEnds = 0.01;              // of the range, which a codec blurs
 // the third power of their size or more.
 constexpr double kSlopeOfWaves = 0.2;
 
+// From the smallest blocks to the largest. At H.264 crf 23 and 28 waves of 6 to 14 mm in relievo-lab grow by 2.9 and
+// more, what the codec makes of smooth scenes by 1.8 at most.
+constexpr double kGrowth = 2.4;
+
 // The means of the blocks of a line in one frame. NaN if a mean is not known: values at either end of the range are
 // often painted.
 using Line = std::vector<double>;
@@ -106,15 +110,14 @@ Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise
   return waves;
 }
 
-Waves beyond(double mm, Waves waves) {
-  for (double& wave : waves) wave = std::sqrt(std::max(wave * wave - mm * mm, 0.0));
-  return waves;
+bool grow(const Waves& waves, double step_mm) {
+  return waves.back() > kGrowth * std::max(waves.front(), step_mm);
 }
 
 double flattenedBy(double width_mm, const Waves& waves) {
   const double block = width_mm / kSigmaPerPitch;
   double most = 0;
-  for (std::size_t k = 0; k < waves.size(); ++k) {
+  for (std::size_t k = 1; k < waves.size(); ++k) {
     const double share = std::min(block / kWaveBlocksMm[k], 1.0);
     most = std::max(most, share * share * share * waves[k]);
   }

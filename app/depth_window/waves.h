@@ -10,8 +10,9 @@
 
 namespace relievo {
 
-// Sizes of the blocks that are compared; waves of two to six blocks are found.
-inline constexpr std::array kWaveBlocksMm{2.2, 3.1};
+// Sizes of the blocks that are compared; waves of two to six blocks are found. The smallest ones only tell waves from
+// what a codec leaves.
+inline constexpr std::array kWaveBlocksMm{1.55, 2.2, 3.1};
 inline constexpr double kShareOfPlaces = 0.6;
 using Waves = std::array<double, kWaveBlocksMm.size()>;
 
@@ -24,10 +25,10 @@ using Waves = std::array<double, kWaveBlocksMm.size()>;
 [[nodiscard]] Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still);
 
 [[nodiscard]] inline double greatest(const Waves& waves) {
-  return std::ranges::max(waves);
+  return *std::max_element(waves.begin() + 1, waves.end());
 }
-// What is left of waves if something that has nothing to do with the relief has made this much of them.
-[[nodiscard]] Waves beyond(double mm, Waves waves);
+// Whether they grow with the blocks as a relief's do; what a codec leaves is about a step in blocks of any size.
+[[nodiscard]] bool grow(const Waves& waves, double step_mm);
 // The error in the slope of a surface with such waves that smoothing of a width leaves.
 [[nodiscard]] double flattenedBy(double width_mm, const Waves& waves);
 

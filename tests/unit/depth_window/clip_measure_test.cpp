@@ -75,14 +75,15 @@ std::vector<TimedSurface> filmOf(const std::function<double(double x_mm, double 
 }
 
 // The fourth difference of a sine of amplitude A and length l over points h apart is A (2 sin(pi h/l))^4 at its top;
-// means over h take sin(pi h/l)/(pi h/l) of it, and .6 of a sine are below sin(.6 x 90 degrees). Blocks are 10 and 14
-// samples wide.
+// means over h take sin(pi h/l)/(pi h/l) of it, and .6 of a sine are below sin(.6 x 90 degrees). Blocks are 7, 10 and
+// 14 samples wide.
 TEST(ClipMeasure, FindsWavesThatAWideSmoothingFlattens) {
   constexpr double kTurn = 2 * std::numbers::pi, kLength = 9, kHeight = 0.3;
   const auto film = filmOf([](double x, double) { return 19 + kHeight * std::sin(kTurn * x / kLength); }, 16);
   const Waves waves = wavesOf(film, 0, 0, true);
   for (std::size_t k = 0; k < waves.size(); ++k) {
-    const double half_turn = kTurn / 2 * (k == 0 ? 10 : 14) * 160 / 720 / kLength, half_chord = 2 * std::sin(half_turn);
+    const double half_turn = kTurn / 2 * std::array{7, 10, 14}[k] * 160 / 720 / kLength;
+    const double half_chord = 2 * std::sin(half_turn);
     const double top = kHeight * std::pow(half_chord, 4) * half_chord / 2 / half_turn;
     EXPECT_NEAR(waves[k], std::sin(0.6 * kTurn / 4) * top, 0.03 * top);
   }
@@ -101,13 +102,25 @@ TEST(ClipMeasure, APlanIsNarrowOnWavesAndWideOnWhatIsSmooth) {
     return 19 + 0.3 * std::sin((0.8 * x + 0.6 * y) * 2 * std::numbers::pi / 10);
   };
   const auto bumps = [](double x, double y) { return 20 + 0.15 * (std::sin(0.63 * x) + std::sin(0.63 * y)); };
+  const auto rippled = [&](double x, double y) { return sine(x, y) + (std::abs(x) < 0.2 ? 0.16 : 0); };
   const auto shallow = [](double x, double y) { return 20 + 0.031 * x + 0.011 * y; };
   const auto hill = [](double x, double y) { return 34 - (x * x + y * y) / 180; };
   EXPECT_NEAR(width(shallow, 0), width(hill, 0), 1e-9) << "steps are no waves";
   EXPECT_LT(width(sine, 0), 0.6 * width(hill, 0));
+  EXPECT_LT(width(rippled, 0), 0.6 * width(hill, 0)) << "a few of a codec's ripples";
   EXPECT_LT(width(bumps, 0), 0.75 * width(hill, 0)) << "the narrow tops are no codec's ripples";
   EXPECT_NEAR(width(shallow, 0.4), width(hill, 0.4), 1e-9) << "noise is no wave";
   EXPECT_LT(width(sine, 0.4), 0.75 * width(hill, 0.4));
+}
+
+TEST(ClipMeasure, WhatACodecLeavesDoesNotGrowWithTheBlocks) {
+  const auto coded = [](const Waves& waves) {
+    return isCoded({.frames = 4, .quantum_mm = 0.16, .ripples = 0.01, .waves_mm = waves});
+  };
+  EXPECT_TRUE(coded({}));
+  EXPECT_TRUE(coded({0.5, 0.4, 0.5}));
+  EXPECT_TRUE(coded({0, 0, 0.2})) << "hardly more than a step";
+  EXPECT_FALSE(coded({0.1, 0.3, 0.8}));
 }
 
 // A sensor that smooths its own noise: bumps some 2 mm wide, other ones in each frame.
