@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/player/player.h"
+#include "app/scene/film_box.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -134,9 +135,7 @@ void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) 
 // drawing delays nothing.
 void Player::begin(MonotonicTime now) {
   if (film_.takeFirst()) {
-    const Frame& shape = film_.picture().depth.empty() ? film_.picture().color : film_.picture().depth;
-    const DisplayVolume volume =
-        config_.volume.value_or(DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect));
+    const DisplayVolume volume = config_.volume.value_or(usualBox(film_.picture().color, film_.picture().depth));
     const DepthCalibration& calibration = film_.info().calibration.calibration;
     touch_.setScene(calibration, volume, film_.info().material, film_.info().material_scale);
     touch_.setLookAhead(film_.lookAhead());

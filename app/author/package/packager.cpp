@@ -7,6 +7,7 @@
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
 #include "app/media/reading/depth_doubts.h"
+#include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
@@ -142,7 +143,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
   }
   if (!output_.preview.empty()) {
     const std::lock_guard lock(preview_mutex_);
-    preview_.before(packed, depth, sourceCalibration(), expectedFrames(info_));
+    preview_.before(packed, usualBox(pair.color, pair.depth), depth, sourceCalibration(), expectedFrames(info_));
   }
   return depth_line_.add([this, depth, key] { return takeDepth(depth, key); });
 }

@@ -7,7 +7,6 @@
 #include <limits>
 #include <memory>
 
-#include "app/scene/display_volume.h"
 #include "platform/atomic_file.h"
 
 extern "C" {
@@ -65,9 +64,8 @@ RgbPixel reliefAt(const DepthMap& map, int c, int r, double mm_across, double mm
   return {level, level, level};
 }
 
-void drawRelief(RgbPicture& picture, const Pane& pane, const DepthMap& map, double aspect) {
-  const auto volume = DisplayVolume::forPicture(map.cols, map.rows, aspect);
-  const double across = volume.width_mm / map.cols, down = volume.height_mm / map.rows;
+void drawRelief(RgbPicture& picture, const Pane& pane, const DepthMap& map, const DisplayVolume& box) {
+  const double across = box.width_mm / map.cols, down = box.height_mm / map.rows;
   for (int y = 0; y < pane.height; ++y) {
     for (int x = 0; x < pane.width; ++x) {
       picture.at(pane.x + x, pane.y + y) =
@@ -141,8 +139,8 @@ void drawProfiles(RgbPicture& picture, const Pane& pane, const DepthMap& before,
 
 }  // namespace
 
-void Preview::before(const ColorPicture420& color, const Frame& depth, const DepthCalibration& calibration,
-                     std::optional<std::uint64_t> expected) {
+void Preview::before(const ColorPicture420& color, const DisplayVolume& box, const Frame& depth,
+                     const DepthCalibration& calibration, std::optional<std::uint64_t> expected) {
   const std::uint64_t index = seen_++;
   if (index != 0 && (!expected || index != *expected / 2)) return;
   auto map = readDepth(depth, calibration);
@@ -150,7 +148,7 @@ void Preview::before(const ColorPicture420& color, const Frame& depth, const Dep
   before_ = std::move(*map);
   color_ = color;
   time_ = depth.pts;
-  aspect_ = depth.sample_aspect;
+  box_ = box;
   waits_ = true;
 }
 
@@ -164,15 +162,15 @@ void Preview::after(const Frame& depth, const DepthCalibration& calibration) {
 
 Result<RgbPicture> Preview::draw() const {
   if (waits_ || after_.size() == 0) return fail(ErrorCode::NotFound, "there is no depth to show");
-  const double shape = after_.cols * aspect_ / after_.rows;
+  const double shape = box_.width_mm / box_.height_mm;
   const int pane_cols = std::clamp(static_cast<int>(std::lround(kPaneRows * shape)), kPaneRows / 4, kMostCols);
   const int pane_rows = std::clamp(static_cast<int>(std::lround(pane_cols / shape)), 1, kPaneRows);
   RgbPicture picture(3 * pane_cols + 4 * kGap, pane_rows + kProfileRows + 3 * kGap, kPaper);
   const auto pane = [&](int i) { return Pane{kGap + i * (pane_cols + kGap), kGap, pane_cols, pane_rows}; };
   const int row = rowOfWidestSpan(after_), line = (2 * row + 1) * pane_rows / (2 * after_.rows);
   drawColor(picture, pane(0), color_);
-  drawRelief(picture, pane(1), before_, aspect_);
-  drawRelief(picture, pane(2), after_, aspect_);
+  drawRelief(picture, pane(1), before_, box_);
+  drawRelief(picture, pane(2), after_, box_);
   drawRule(picture, pane(0), line, kWhite);
   drawRule(picture, pane(1), line, kOfBefore);
   drawRule(picture, pane(2), line, kOfAfter);

@@ -9,6 +9,7 @@
 #include "app/author/package/picture.h"
 #include "app/author/preview/png_picture.h"
 #include "app/enhance/depth_map.h"
+#include "app/scene/display_volume.h"
 #include "hal/media/frame.h"
 #include "platform/error.h"
 
@@ -19,10 +20,10 @@ namespace relievo {
 // one grid line per millimetre of a film 40 mm deep. There is no text.
 class Preview {
  public:
-  // Call for every depth picture before its enhancement, with the colour of that time. Keeps the middle one of the
-  // film, or the first if the length is unknown.
-  void before(const ColorPicture420& color, const Frame& depth, const DepthCalibration& calibration,
-              std::optional<std::uint64_t> expected);
+  // Call for every depth picture before its enhancement, with the colour of that time and the film's box.
+  // Keeps the middle one of the film, or the first if the length is unknown.
+  void before(const ColorPicture420& color, const DisplayVolume& box, const Frame& depth,
+              const DepthCalibration& calibration, std::optional<std::uint64_t> expected);
   // Call for every depth picture after its enhancement, at its original time.
   void after(const Frame& depth, const DepthCalibration& calibration);
 
@@ -34,7 +35,7 @@ class Preview {
   std::uint64_t seen_ = 0;
   bool waits_ = false;  // until the depth of `time_` comes out
   MediaTime time_;
-  double aspect_ = 1;  // of the depth's samples
+  DisplayVolume box_;
   ColorPicture420 color_;
   DepthMap before_, after_;
 };

@@ -10,6 +10,7 @@
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/tracks/track_reader.h"
+#include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
 
 namespace relievo {
@@ -32,7 +33,8 @@ struct DepthFilm::Tracks {
   PairReader pairs;
   bool paired = false;
   std::size_t track = 0;
-  std::optional<Frame> first;  // read to know its shape, not yet handed out
+  std::optional<Frame> first;        // read to know its shape, not yet handed out
+  std::optional<DisplayVolume> box;  // the player's for these pairs
 };
 
 DepthFilm::DepthFilm(const PairReader::Backends& backends, DepthFilmOptions options)
@@ -71,7 +73,7 @@ Outcome<void> DepthFilm::open() {
   if (!*first) return failOn(source.url, {ErrorCode::NotFound, 0, "no picture in this source"});
   tracks_->first = std::move(*first);
   const Frame& frame = *tracks_->first;
-  volume_ = options_.volume.value_or(DisplayVolume::forPicture(frame.width, frame.height, frame.sample_aspect));
+  volume_ = options_.volume.value_or(tracks_->box.value_or(usualBox(frame, frame)));
   if (tracks_->paired) {
     calibration_ = tracks_->pairs.info().calibration.calibration;
     material_ = tracks_->pairs.info().material;
@@ -108,6 +110,7 @@ Result<std::optional<Frame>> DepthFilm::nextFrame() {
     if (!*pair) return std::nullopt;
     // A depth frame comes with every colour frame that it belongs to: it counts once.
     const bool repeated = newest_ && (*pair)->depth.pts - *first_pts_ == newest_->time - MediaTime{};
+    if (!tracks_->box) tracks_->box = usualBox((*pair)->color, (*pair)->depth);
     if (!(*pair)->depth.empty() && (!repeated || options_.frames_per_s)) return std::move((*pair)->depth);
   }
 }

@@ -8,6 +8,7 @@
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"
+#include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
 #include "platform/print.h"
 
@@ -139,11 +140,7 @@ bool hasManyHoles(const Frame& depth, const DepthCalibration& calibration) {
   return !calibration.invalid.empty() && CodeCount(depth).share(calibration.invalid) > kMany;
 }
 
-double aspectOf(const Frame& frame) {
-  return frame.width * frame.sample_aspect / frame.height;
-}
-
-// A --box of this aspect ratio, 160 mm on its longer side: it gives a squeezed colour the shape of its depth.
+// A --box of this aspect ratio, 160 mm on its longer side.
 std::string boxOf(double aspect) {
   constexpr double kLong = 160;
   return print("%.0fx%.0fx40", std::min(kLong, kLong * aspect), std::min(kLong, kLong / aspect));
@@ -151,20 +148,22 @@ std::string boxOf(double aspect) {
 
 std::string doubtShape(const Frame& depth, const Frame& color) {
   constexpr double kSame = 0.03;
-  const double ratio = aspectOf(depth) / aspectOf(color);
+  const double ratio = shapeOf(depth) / shapeOf(color);
   if (std::abs(ratio - 1) <= kSame) return "";
-  if (std::abs(aspectOf(depth) * aspectOf(color) - 1) <= kSame) {
+  if (std::abs(shapeOf(depth) * shapeOf(color) - 1) <= kSame) {
     return print(
         "the colour is %.2f times as wide as high, the depth %.2f: one of them lies on its side; turn the depth, such "
         "as ffmpeg -i DEPTH -vf transpose=1 -c:v ffv1 TURNED.mkv (transpose=2: the other way round), and give it as "
         "--depth TURNED.mkv",
-        aspectOf(color), aspectOf(depth));
+        shapeOf(color), shapeOf(depth));
   }
+  const bool by_depth = hasShapeOfDepth(color, depth);
   return print(
-      "the colour is %.2f times as wide as high, the depth %.2f: the depth is stretched onto the colour; if both show "
-      "the same view and the colour is squeezed, play it with --box %s; if one shows more than the other, give "
-      "--registration",
-      aspectOf(color), aspectOf(depth), boxOf(aspectOf(depth)).c_str());
+      "the colour is %.2f times as wide as high, the depth %.2f: both are shown in the %s's shape; if the %s's is "
+      "right, "
+      "play it with --box %s; if one shows more than the other, give --registration",
+      shapeOf(color), shapeOf(depth), by_depth ? "depth" : "colour", by_depth ? "colour" : "depth",
+      boxOf(shapeOf(by_depth ? color : depth)).c_str());
 }
 
 }  // namespace

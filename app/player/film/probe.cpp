@@ -11,6 +11,7 @@
 #include "app/media/pairs/long_wait.h"
 #include "app/player/film/film_changes.h"
 #include "app/player/report.h"
+#include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
 #include "platform/plain_text.h"
 #include "platform/print.h"
@@ -55,8 +56,7 @@ Outcome<void> lookAtPairs(PairReader& reader, ProbeResult& result) {
     const auto pair = reader.next();
     if (!pair) return failOn(reader.failedThing(), pair.error());
     if (!*pair) break;
-    const Frame& shape = (*pair)->depth.empty() ? (*pair)->color : (*pair)->depth;
-    if (i == 0) result.volume = DisplayVolume::forPicture(shape.width, shape.height, shape.sample_aspect);
+    if (i == 0) result.volume = usualBox((*pair)->color, (*pair)->depth);
     if ((*pair)->depth.empty()) continue;
     const auto field = HeightField::make((*pair)->depth, film.calibration.calibration, result.volume);
     if (!field) return failOn("depth", field.error());

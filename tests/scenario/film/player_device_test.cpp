@@ -23,8 +23,8 @@ TEST_F(PlayerScenario, OddSizesPlayAndAreFelt) {
   bench_.haptic.path_mm = comingDown();
   playsWell();
   EXPECT_EQ(bench_.report.frames_shown, 100u);
-  // The box has the shape of the depth picture, whatever the colour's is.
-  EXPECT_NEAR(bench_.report.volume.height_mm, 160.0 * 5 / 7, 1e-9);
+  // The box has the shape of the colour picture, whatever the depth's is.
+  EXPECT_NEAR(bench_.report.volume.height_mm, 160.0 * 17 / 33, 1e-9);
   EXPECT_GT(bench_.report.haptic.contact_ticks, 3500u);
 }
 

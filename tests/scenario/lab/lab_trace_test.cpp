@@ -289,6 +289,21 @@ TEST_F(LabTrace, TellsThePartsThatItReallyUsed) {
   }
 }
 
+// The upper quarter of the depth stands at 30 mm. The player's box is as wide as the colour's 16:9, so that this
+// quarter begins at y = 22.5 mm; by the square depth it would begin at 40 mm.
+TEST_F(LabTrace, TheBoxHasTheShapeOfTheColour) {
+  test::ClipTrack color{.width = 64, .height = 36}, depth{.width = 48, .height = 48};
+  depth.sample = [](int, int, int r, int) { return r < 12 ? 49151u : 0u; };
+  test::makeClip(folder_ / "film.mkv", {color, depth});
+  std::ofstream(folder_ / "hip.csv") << "t_s,x_mm,y_mm,z_mm\n0,0,30,31\n0.01,0,30,28\n0.02,0,30,28\n";
+  const auto result =
+      test::runProgram("relievo-lab trace --depth " + (folder_ / "film.mkv") + " --hip " + (folder_ / "hip.csv") +
+                           " --out " + (folder_ / "out.csv") + " --method relievo",
+                       folder_ / ".");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(readOut().back().contact);
+}
+
 TEST_F(LabTrace, OptionsThatDoNotGoTogetherAreNamedBoth) {
   struct Case {
     const char *words, *named;

@@ -65,6 +65,21 @@ TEST_F(PlayerProgram, ProbeTellsTheFilmAndTheDepthOfAFolder) {
   EXPECT_THAT(told.out, HasSubstr("track   " + at("take/depth-*.png") + " 0 video png"));
 }
 
+// A DVD's colour with depth whose file does not say that its samples are wide.
+TEST_F(PlayerProgram, TheBoxHasTheShapeOfTheColour) {
+  ClipTrack wide = color(3), squeezed = depth(3);
+  for (ClipTrack* const track : {&wide, &squeezed}) {
+    track->width = 90;
+    track->height = 72;
+  }
+  wide.sample_width = 64;
+  wide.sample_height = 45;
+  makeClip(at("film.mkv"), {wide, squeezed});
+  const auto result = runProgram("relievo probe " + at("film.mkv"), at(""));
+  EXPECT_THAT(result.out, HasSubstr("volume  160 x 90 x 40 mm"));
+  EXPECT_THAT(result.err + result.out, HasSubstr("the depth 1.25: both are shown in the colour's shape"));
+}
+
 TEST_F(PlayerProgram, ProbeTellsWhatIsInASource) {
   ClipTrack plane = depth(5);
   plane.sample = [](int, int c, int, int) { return c < 32 ? 1000u : 65000u; };

@@ -27,7 +27,7 @@ void show(Preview& preview, int index, int high, std::optional<std::uint64_t> ex
   const MediaTime time = mediaTime(0.04 * index);
   const auto color = grayColor(static_cast<std::uint8_t>(50 + high));
   const DepthCalibration calibration{.invalid = 0};
-  preview.before(color, test::makeGrayFrame(kCols, kRows, 8, time, slope), calibration, expected);
+  preview.before(color, {.height_mm = 120}, test::makeGrayFrame(kCols, kRows, 8, time, slope), calibration, expected);
   preview.after(test::makeGrayFrame(kCols, kRows, 8, time, [high](int c, int) { return 51 + high + c; }), calibration);
 }
 
@@ -67,12 +67,21 @@ TEST(AuthorPreview, IsOfTheMiddleWhereThatIsKnownElseOfTheFirst) {
   }
 }
 
+// As in the player, whatever shape the depth has.
+TEST(AuthorPreview, PanesHaveTheShapeOfTheBox) {
+  Preview preview;
+  const Frame depth = test::makeGrayFrame(kRows, kRows, 8, mediaTime(0), [](int c, int) { return 50 + c; });
+  preview.before(grayColor(9), {.height_mm = 80}, depth, {}, {});
+  preview.after(depth, {});
+  EXPECT_EQ(preview.draw()->width, 3 * kPaneRows * 2 + 4 * kGap);
+}
+
 TEST(AuthorPreview, SaysWhenThereIsNothingToShow) {
   EXPECT_EQ(Preview().draw().error().code, ErrorCode::NotFound);
   Preview preview;  // a film of holes alone has a picture but no profiles
   const DepthCalibration calibration{.invalid = 0};
   const Frame holes = test::makeGrayFrame(kCols, kRows, 8, mediaTime(0), [](int, int) { return 0; });
-  preview.before(grayColor(9), holes, calibration, {});
+  preview.before(grayColor(9), {.height_mm = 120}, holes, calibration, {});
   EXPECT_EQ(preview.draw().error().code, ErrorCode::NotFound) << "the enhanced picture has not arrived yet";
   preview.after(holes, calibration);
   const auto picture = preview.draw();

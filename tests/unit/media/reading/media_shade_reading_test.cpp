@@ -10,6 +10,7 @@
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/depth_reading.h"
+#include "app/scene/film_box.h"
 #include "tests/support/film/depth_frames.h"
 
 namespace relievo {
@@ -198,6 +199,25 @@ TEST(ShadeReading, DepthThatLiesOnItsSideIsToBeTurned) {
   const Frame color = of_size(96, 128);
   EXPECT_THAT(doubtsOf(of_size(64, 48), {}, &color), Contains(AllOf(HasSubstr("transpose"), Not(HasSubstr("--box")))));
   EXPECT_THAT(doubtsOf(of_size(72, 48), {}, &color), Contains(AllOf(HasSubstr("--box"), Not(HasSubstr("transpose")))));
+}
+
+// A square picture has a network's size: if one of the two has it, the film is shown in the other's shape.
+TEST(ShadeReading, OfTwoShapesTheSquareOneIsTakenForSqueezed) {
+  const auto of_size = [](int cols, int rows) {
+    return makeGrayFrame(cols, rows, 8, {}, [](int c, int r) { return (3 * c + r) % 256; });
+  };
+  const Frame square = of_size(64, 64), wide = of_size(128, 72), high = of_size(72, 128), tall = of_size(72, 120);
+  EXPECT_DOUBLE_EQ(usualBox(wide, square).height_mm, 90);
+  EXPECT_DOUBLE_EQ(usualBox(wide, high).height_mm, 90);
+  EXPECT_DOUBLE_EQ(usualBox(square, wide).height_mm, 90);
+  EXPECT_DOUBLE_EQ(usualBox(square, {}).height_mm, 160);
+  const auto boxes = [](const std::string& shown, const std::string& right, const std::string& box) {
+    return Contains(
+        HasSubstr("in the " + shown + "'s shape; if the " + right + "'s is right, play it with --box " + box));
+  };
+  EXPECT_THAT(doubtsOf(square, {}, &wide), boxes("colour", "depth", "160x160x40"));
+  EXPECT_THAT(doubtsOf(tall, {}, &square), boxes("depth", "colour", "160x160x40"));
+  EXPECT_THAT(doubtsOf(tall, {}, &wide), boxes("colour", "depth", "96x160x40"));
 }
 
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
