@@ -118,6 +118,7 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   if (last == nullptr) return stop_wanted;
   std::atexit([] { last_act.load()(); });
   std::at_quick_exit([] { last_act.load()(); });
+  std::signal(SIGTSTP, SIG_IGN);  // it would stop the watchdogs as well, and the last force would stand
   action.sa_handler = endNow;
   for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP, SIGVTALRM, SIGPROF}) {
     struct sigaction old{};

@@ -27,7 +27,8 @@ inline int tell(const Failure& failure) {
 // SIGXCPU, set the returned flag, asking for a clean exit; a line says so if that takes long. A second one ends
 // the program at once, as does a crash (SIGSEGV, SIGABRT and the like). `last`, if given, is called just before such an
 // end, and also if a driver calls `exit` or `quick_exit`, as that of the window does when it loses its X server; it
-// must be async-signal-safe. Call once.
+// must be async-signal-safe. SIGTSTP (Ctrl-Z) is then ignored, because it would stop all threads without that call.
+// Call once.
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // Runs the body of a main, which returns the exit code. `name` (a literal) starts each line on stderr. Exceptions (out

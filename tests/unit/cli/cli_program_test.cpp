@@ -36,6 +36,13 @@ TEST(ProgramDeathTest, NeitherDoesASecondSignal) {
               "^quiet$");
 }
 
+// Which would stop every thread, watchdogs included, while a force stands.
+TEST(ProgramDeathTest, CtrlZDoesNotStopIt) {
+  const auto ignored = [](void (*handler)(int)) { return handler == SIG_IGN ? 5 : 6; };
+  EXPECT_EXIT(std::_Exit(ignored(std::signal(SIGTSTP, SIG_DFL))), testing::ExitedWithCode(6), "");
+  EXPECT_EXIT((begin(), std::_Exit(ignored(std::signal(SIGTSTP, SIG_DFL)))), testing::ExitedWithCode(5), "");
+}
+
 // As with a display that does not answer.
 TEST(ProgramDeathTest, AnEndThatTakesLongIsTold) {
   const auto end = [] {
