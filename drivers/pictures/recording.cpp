@@ -5,9 +5,11 @@
 #include <cmath>
 #include <compare>
 #include <numeric>
+#include <set>
 
 #include "drivers/pictures/layouts.h"
 #include "drivers/pictures/names.h"
+#include "drivers/pictures/roles.h"
 #include "platform/print.h"
 
 namespace relievo::pictures {
@@ -88,17 +90,40 @@ struct Timing {
   Series color, depth;
   std::vector<std::string> notes;
 
-  void align(NameKind depth_kind, bool paired);
+  void align(const FoundPictures& found, NameKind depth_kind);
+  bool pairByKey(const FoundPictures& found);
   void noteGaps();
 };
 
-void Timing::align(NameKind depth_kind, bool paired) {
+// Gives depth the value of the colour that has its key (roles.h), and leaves out depth without one. False if too few
+// keys are shared for that.
+bool Timing::pairByKey(const FoundPictures& found) {
+  std::map<std::string, std::int64_t> values;
+  for (const Valued& each : color) values.emplace(keyOf(found.color.names[each.place]), each.value);
+  std::set<std::string> keys;
+  Series kept;
+  for (const Valued& each : depth) {
+    const std::string key = keyOf(found.depth.names[each.place]);
+    keys.insert(key);
+    if (const auto same = values.find(key); same != values.end()) kept.push_back({same->second, each.place});
+  }
+  const bool unique = values.size() == color.size() && keys.size() == depth.size();
+  if (!unique || kept.empty() || 2 * kept.size() < std::min(color.size(), depth.size())) return false;
+  std::ranges::sort(kept, {}, &Valued::value);
+  if (kept.size() < color.size())
+    notes.push_back(print("%zu of %zu colour pictures have no depth", color.size() - kept.size(), color.size()));
+  depth = std::move(kept);
+  return true;
+}
+
+void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   if (color.empty() || depth.empty()) {
     if (color.empty()) kind = depth_kind;
     return;
   }
   const bool comparable = kind == depth_kind && kind != NameKind::Ranks && overlap(color, depth);
   if (!comparable) {
+    if (pairByKey(found)) return;
     if (color.size() > 1 || depth.size() > 1)
       notes.emplace_back("the names of colour and depth do not correspond: they are paired in their order");
     if (kind != NameKind::Seconds || color.size() != depth.size()) countByRank(color), kind = NameKind::Ranks;
@@ -107,7 +132,7 @@ void Timing::align(NameKind depth_kind, bool paired) {
     }
     return;
   }
-  if (kind != NameKind::Seconds || paired) return;
+  if (kind != NameKind::Seconds || found.paired) return;
   const std::size_t pairs = moveToNearest(color, depth);
   if (pairs < color.size()) {
     notes.push_back(print("%zu of %zu colour pictures have no depth within 20 ms", color.size() - pairs, color.size()));
@@ -148,14 +173,14 @@ Timing timingOf(const FoundPictures& found) {
     timing.kind = found.listed_numbers ? NameKind::Numbers : NameKind::Seconds;
     timing.color = inOrder(found.color_values);
     timing.depth = inOrder(found.depth_values);
-    timing.align(timing.kind, found.paired);
+    timing.align(found, timing.kind);
     return timing;
   }
   const NameValues color = valuesOf(found.color.names), depth = valuesOf(found.depth.names);
   timing.kind = color.kind;
   timing.color = inOrder(color.values);
   timing.depth = inOrder(depth.values);
-  timing.align(depth.kind, false);
+  timing.align(found, depth.kind);
   return timing;
 }
 

@@ -33,7 +33,9 @@ struct Recording {
 //
 // Depth belongs to the colour picture with its number, or, of times, to the nearest one within 20 ms, each used once,
 // the nearest pairs first (as TUM's associate.py); it gets that picture's time. Other depth pictures keep their own
-// time; those before the first colour picture are left out.
+// time; those before the first colour picture are left out. Depth whose names give neither belongs to the colour
+// picture of its name (keyOf in roles.h) and is left out without one, or, if no names are shared, to the picture of its
+// rank.
 [[nodiscard]] Recording recordingOf(const FoundPictures& found, std::optional<double> frames_per_s);
 
 }  // namespace relievo::pictures

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "hal/media/media_names.h"
+#include "platform/lower_case.h"
 
 namespace relievo::pictures {
 namespace {
@@ -57,6 +58,21 @@ Role roleOf(std::string_view name) {
   const char letter = matterportLetter(name);
   if (holdsOne(words, kDepth) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
   return holdsOne(words, kColor) || beginsWith(name, 'r') || letter == 'i' ? Role::Color : Role::Unsaid;
+}
+
+std::string keyOf(std::string_view name) {
+  const std::string_view stem = name.substr(0, name.rfind('.'));
+  const auto kindOf = [](unsigned char c) {  // beyond ASCII all are letters
+    return std::isalpha(c) != 0 || c >= 0x80 ? 2 : std::isdigit(c) != 0 ? 1 : 0;
+  };
+  std::string key;
+  for (std::size_t from = 0, end = 0; from < stem.size(); from = end) {
+    const int kind = kindOf(static_cast<unsigned char>(stem[from]));
+    while (end < stem.size() && kindOf(static_cast<unsigned char>(stem[end])) == kind) ++end;
+    const std::string part = lowerCase(stem.substr(from, end - from));
+    if (kind != 0 && !holdsOne({part}, kDepth) && !holdsOne({part}, kColor)) key += part + ' ';
+  }
+  return key;
 }
 
 bool isPaintedDepth(std::string_view name) {

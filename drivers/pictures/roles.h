@@ -19,6 +19,10 @@ enum class Role : std::uint8_t {
 // By the words in `name`, which anything but letters parts; "d-12.pgm" and "r-12.ppm" are depth and colour.
 [[nodiscard]] Role roleOf(std::string_view name);
 
+// What the names of colour and depth of one picture share: "cat" of "cat-image.jpg" and "cat-depth.png". Without the
+// ending, the words of colour and depth, and what separates the others.
+[[nodiscard]] std::string keyOf(std::string_view name);
+
 // Whether a name of depth says that it is painted for the eye: "depth_vis", "depth_colormap".
 [[nodiscard]] bool isPaintedDepth(std::string_view name);
 

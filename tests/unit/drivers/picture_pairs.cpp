@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which pictures of a folder are taken, and which depth belongs to which colour.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/drivers/picture_files.h"
+
+namespace relievo {
+namespace {
+using test::Pictures;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+// Photos with a depth missing; KITTI 2015, whose second picture of a scene has none.
+TEST_F(Pictures, DepthBelongsToTheColourOfItsName) {
+  for (const char* name : {"alpha", "beta", "delta", "gamma"}) file("p/images/" + std::string(name) + ".jpg");
+  for (const char* name : {"alpha", "delta", "gamma"}) file("p/depth/" + std::string(name) + "_depth.png");
+  const Film photos = read(folder_ / "p");
+  EXPECT_EQ(photos.color.size(), 4u);
+  EXPECT_THAT(photos.depth, ElementsAre("0 p/depth/alpha_depth.png", "10000 p/depth/delta_depth.png",
+                                        "15000 p/depth/gamma_depth.png"));
+  EXPECT_THAT(photos.notes, Each(Not(HasSubstr("do not correspond"))));
+  EXPECT_THAT(photos.notes, Contains("1 of 4 colour pictures have no depth"));
+  for (const char* name : {"000000", "000001", "000002"}) {
+    file("k/image_2/" + std::string(name) + "_10.png"), file("k/image_2/" + std::string(name) + "_11.png");
+    file("k/disp_occ_0/" + std::string(name) + "_10.png");
+  }
+  const Film kitti = read(folder_ / "k", 10);
+  EXPECT_THAT(kitti.depth, ElementsAre("0 k/disp_occ_0/000000_10.png", "200 k/disp_occ_0/000001_10.png",
+                                       "400 k/disp_occ_0/000002_10.png"));
+}
+
+}  // namespace
+}  // namespace relievo
