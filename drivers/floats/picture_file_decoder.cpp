@@ -99,13 +99,14 @@ class PictureFileDecoder final : public VideoDecoder {
   }
 
  private:
-  // How the film's pictures are converted, as its first one decides.
+  // How the film's pictures are converted, as its first one that has a number decides.
   struct Reading {
     bool gray = true;
     std::size_t component = 0;  // of gray
     float stretch = 1;
     bool plain = false;  // whole numbers: the codes themselves, not values of a float
     FloatCodes codes = FloatCodes::identity();
+    bool decided = true;  // false while every sample has been a hole
     bool said_beyond = false;
   };
 
@@ -160,8 +161,10 @@ class PictureFileDecoder final : public VideoDecoder {
     }
     if (!reading.plain && reading.gray) {
       const std::size_t begin = reading.component;
-      reading.codes = FloatCodes::chosenFor([&](std::size_t i) { return first.samples[begin + i * step]; },
-                                            first.samples.size() / step);
+      const auto codes = FloatCodes::chosenFor([&](std::size_t i) { return first.samples[begin + i * step]; },
+                                               first.samples.size() / step);
+      reading.decided = codes.has_value();
+      if (codes) reading.codes = *codes;
     }
     return reading;
   }
@@ -169,7 +172,7 @@ class PictureFileDecoder final : public VideoDecoder {
   // nullopt for a picture of fewer components than the film's first one.
   std::optional<Frame> frameOf(const FilePicture& picture) {
     if (!picture.frame.empty()) return picture.frame;
-    if (!reading_) reading_ = readingOf(picture);
+    if (!reading_ || !reading_->decided) reading_ = readingOf(picture);
     if (!reading_->gray && picture.components == 3) return colorFrame(picture);
     const auto step = static_cast<std::size_t>(picture.components);
     if (reading_->component >= step) return std::nullopt;

@@ -42,7 +42,7 @@ std::vector<float> examined(const std::function<float(std::size_t)>& sample, std
 
 }  // namespace
 
-FloatCodes FloatCodes::chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count) {
+std::optional<FloatCodes> FloatCodes::chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count) {
   bool turned = false;
   std::vector<float> values = examined(sample, count, turned);
   float nothing_from = kNothingThere;
@@ -53,10 +53,10 @@ FloatCodes FloatCodes::chosenFor(const std::function<float(std::size_t)>& sample
       values.erase(top, values.end());
     }
   }
-  if (values.empty()) return {1, nothing_from};
+  if (values.empty()) return std::nullopt;
   const auto last = static_cast<std::size_t>(std::ceil((1 - kOutliers) * static_cast<double>(values.size() - 1)));
   const double largest = std::max(static_cast<double>(values[last]), 1e-30);
-  return {(turned ? -1 : 1) * roundUp(largest / kCodesInUse), nothing_from};
+  return FloatCodes((turned ? -1 : 1) * roundUp(largest / kCodesInUse), nothing_from);
 }
 
 std::uint16_t FloatCodes::codeOf(float value) const noexcept {

@@ -4,21 +4,23 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace relievo {
 
-// One scale for a whole film, chosen from its first picture: a code stands for 1, 2 or 5 times a power of ten, and the
-// picture's largest value uses a quarter to a half of the codes. Code 0 is a hole: what is not a number, not positive,
-// or so large that it means "nothing there" (1e9 and more, or one value that lies alone, ten times beyond all
-// others). A film whose values are mostly negative, as some disparities are, has its sign turned. A later value beyond
-// the scale gets the highest code.
+// One scale for a whole film, chosen from its first picture that has a number: a code stands for 1, 2 or 5 times a
+// power of ten, and the picture's largest value uses a quarter to a half of the codes. Code 0 is a hole: what is not a
+// number, not positive, or so large that it means "nothing there" (1e9 and more, or one value that lies alone, ten
+// times beyond all others). A film whose values are mostly negative, as some disparities are, has its sign turned. A
+// later value beyond the scale gets the highest code.
 class FloatCodes {
  public:
   static constexpr float kNothingThere = 1e9F;
   static constexpr std::uint16_t kHole = 0, kHighest = 0xffff;
 
-  // `sample(i)` returns the first picture's sample `i` of `count`.
-  [[nodiscard]] static FloatCodes chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count);
+  // `sample(i)` returns the picture's sample `i` of `count`. Nullopt if all are holes: the next picture chooses.
+  [[nodiscard]] static std::optional<FloatCodes> chosenFor(const std::function<float(std::size_t)>& sample,
+                                                           std::size_t count);
   // Whole numbers up to 65535 that are codes already.
   [[nodiscard]] static FloatCodes identity() noexcept { return {1, kNothingThere}; }
 

@@ -152,8 +152,10 @@ std::vector<Frame> PairReader::Impl::laterPictures(MediaTime seen, int stream) {
   if (duration == Duration(0)) return pictures;
   const MonotonicClock clock;
   const MonotonicTime until = clock.now() + kLongest;
-  // The scale of floating-point numbers is that of the first picture that is decoded.
-  const auto first = scout->next(0);
+  // The scale of floating-point numbers is that of the first decoded picture that has one.
+  auto first = scout->next(0);
+  while (first && *first && (**first).value_per_code != 0 && isBlank(**first) && clock.now() < until)
+    first = scout->next(0);
   if (!first || !*first) return pictures;
   const double samples = static_cast<double>((**first).width) * (**first).height;
   std::vector<MediaTime> met{seen};

@@ -158,7 +158,7 @@ const float* floatsOf(const AVFrame& picture, int row) noexcept {
   return reinterpret_cast<const float*>(picture.data[0] + std::ptrdiff_t{row} * picture.linesize[0]);
 }
 
-FloatCodes scaleFor(const AVFrame& picture) {
+std::optional<FloatCodes> scaleFor(const AVFrame& picture) {
   const auto cols = static_cast<std::size_t>(picture.width);
   const auto sample = [&](std::size_t i) { return floatsOf(picture, static_cast<int>(i / cols))[i % cols]; };
   return FloatCodes::chosenFor(sample, cols * static_cast<std::size_t>(picture.height));
@@ -278,7 +278,7 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
   }
   if (floats) {
     if (!codes_) codes_ = scaleFor(picture);
-    toCodes(picture, *codes_, *converted);
+    toCodes(picture, codes_.value_or(FloatCodes::identity()), *converted);
     return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {

@@ -109,14 +109,16 @@ TEST(Pfm, NegativeDisparitiesAreTurned) {
   expectValues(picture.frames[0], [](std::size_t r, std::size_t c) { return -slopeWithHole(r, c); });
 }
 
-TEST(Pfm, ASeriesKeepsItsFirstScale) {
+TEST(Pfm, ASeriesKeepsTheScaleOfItsFirstPictureWithNumbers) {
   const test::TemporaryFolder folder;
-  for (int i = 1; i <= 3; ++i) write(folder / ("d" + std::to_string(i) + ".pfm"), pfm(false, "-1", i == 3 ? 10 : i));
+  for (int i = 0; i <= 3; ++i) write(folder / ("d" + std::to_string(i) + ".pfm"), pfm(false, "-1", i == 3 ? 10 : i));
   const DecodedFilm film = decodeFilm(folder / "d%d.pfm");
-  ASSERT_EQ(film.frames.size(), 3u);
-  expectValues(film.frames[1], [](std::size_t r, std::size_t c) { return 2 * slopeWithHole(r, c); });
-  EXPECT_EQ(film.frames[2].value_per_code, film.frames[0].value_per_code);
-  EXPECT_EQ(test::sampleAt(film.frames[2], 0, kCols - 1, kRows - 1), 65535u) << "beyond the scale, but no hole";
+  ASSERT_EQ(film.frames.size(), 4u);
+  for (int c = 0; c < int{kCols}; ++c) EXPECT_EQ(test::sampleAt(film.frames[0], 0, c, 1), 0u) << "nothing but holes";
+  expectValues(film.frames[1], slopeWithHole);
+  expectValues(film.frames[2], [](std::size_t r, std::size_t c) { return 2 * slopeWithHole(r, c); });
+  EXPECT_EQ(film.frames[3].value_per_code, film.frames[1].value_per_code);
+  EXPECT_EQ(test::sampleAt(film.frames[3], 0, kCols - 1, kRows - 1), 65535u) << "beyond the scale, but no hole";
 }
 
 TEST(Pfm, ThreeComponentsAreColourUnlessTheyAreEqual) {

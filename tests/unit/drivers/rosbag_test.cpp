@@ -130,23 +130,30 @@ TEST_F(RosbagSource, TakesBigEndianAndPaddedRows) {
 TEST_F(RosbagSource, FloatsAreMetres) {
   BagWriter bag;
   const auto depth = bag.connect("/depth", "sensor_msgs/Image");
-  std::string data;
-  for (const float metres : {0.5F, std::nanf(""), 2.2504F, 0.0F}) {
-    data.append(reinterpret_cast<const char*>(&metres), sizeof metres);
+  // The scale is that of the first picture that has a number.
+  int written = 0;
+  for (const float factor : {std::nanf(""), 0.0F, 1.0F}) {
+    std::string data;
+    for (const float metres : {0.5F, std::nanf(""), 2.2504F, 0.0F}) {
+      const float value = metres * factor;
+      data.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    const std::int64_t stamp = kFirstStamp + kPeriod * written++;
+    bag.write(depth, stamp,
+              bagImage({.stamp_ns = stamp, .cols = 2, .rows = 2, .step = 8, .encoding = "32FC1", .data = data}));
   }
-  bag.write(depth, kFirstStamp,
-            bagImage({.stamp_ns = 5, .cols = 2, .rows = 2, .step = 8, .encoding = "32FC1", .data = data}));
   const auto source = open(bag.finish());
   const auto tags = source->streams()[0].tags;
   EXPECT_EQ(tags.at("DEPTH_UNIT"), "1000");
   EXPECT_EQ(tags.at("DEPTH_INVALID"), "0");
   const auto frames = framesOf(*source, StreamInfo(source->streams()[0]));
-  ASSERT_EQ(frames.size(), 1u);
-  const double value = frames[0].value_per_code;
-  EXPECT_NEAR(value * sample(frames[0], 0, 0), 0.5, 1e-3);
-  EXPECT_EQ(sample(frames[0], 1, 0), 0u);
-  EXPECT_NEAR(value * sample(frames[0], 0, 1), 2.2504, 1e-3);
-  EXPECT_EQ(sample(frames[0], 1, 1), 0u);
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(sample(frames[0], 0, 0), 0u);
+  const double value = frames[2].value_per_code;
+  EXPECT_NEAR(value * sample(frames[2], 0, 0), 0.5, 1e-3);
+  EXPECT_EQ(sample(frames[2], 1, 0), 0u);
+  EXPECT_NEAR(value * sample(frames[2], 0, 1), 2.2504, 1e-3);
+  EXPECT_EQ(sample(frames[2], 1, 1), 0u);
 }
 
 TEST_F(RosbagSource, RefusesBagsWithoutPicturesAndOtherVersionsInOneLine) {
