@@ -94,9 +94,9 @@ Result<void> PairReader::Impl::measureHalves() {
 
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
-  auto look = registrar ? Result<Frame>(first) : tellingPicture(first, depthUrl(), stream.index);
-  // A picture after the first one still has its samples in the order of the file.
-  if (look && look->pts != first.pts) look = inOrder(*look, reordering.order);
+  Result<Frame> look = tellingPicture(first, depthUrl(), stream.index);
+  // A picture after the first one is still as it is stored.
+  if (look->pts != first.pts) look = depthIn(*look);
   if (!look) return failOn(depthUrl(), look.error());
   const bool guessed = !sources.depth() && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
   const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;

@@ -152,6 +152,15 @@ TEST_F(KinectRecording, ItsAttachmentRegistersTheDepth) {
   EXPECT_EQ(codeOf(pair.depth, 200, 7), 1000);
 }
 
+// A sensor that has not begun to measure; the wall is 1000 to 1577 mm away.
+TEST_F(KinectRecording, RegisteredDepthIsReadFromItsFirstPictureThatIsNotBlank) {
+  const auto late = depthTrack([](int c, int r, int i) { return i == 0 ? 0 : millimetresAt(c, r, i); });
+  ASSERT_TRUE(open({colorTrack(), late}, calibration(100)));
+  EXPECT_TRUE(describesBothCameras());
+  EXPECT_GT(reader_.info().calibration.calibration.near_mm, 800);
+  EXPECT_LT(reader_.info().calibration.calibration.far_mm, 2000);
+}
+
 TEST_F(KinectRecording, TheUsersRegistrationOverridesTheFilms) {
   const RigCamera camera{
       .cols = 320, .rows = 288, .focal_x = 250, .focal_y = 250, .center_x = 159.5, .center_y = 143.5};
