@@ -50,7 +50,7 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
     return fail(ErrorCode::Unsupported,
                 "there is no desktop to open a window on; start relievo from one (X11 or Wayland)");
   }
-  film_size_ = config.film_size;
+  film_size_ = hidden_ = config.film_size;
   window_ =
       SDL_CreateWindow(kWindowTitle, SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, config.width, config.height,
                        SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI |
@@ -97,7 +97,7 @@ Result<DisplaySurface> WindowDisplay::startFrame() {
 // SDL_GL_SwapWindow reports failures only by SDL_GetError. A frame is on the screen at the next refresh.
 Result<Duration> WindowDisplay::showFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
-  SDL_ShowWindow(window_);  // the first frame of a film's own size
+  if (std::exchange(hidden_, false)) SDL_ShowWindow(window_);
   SDL_ClearError();
   SDL_GL_SwapWindow(window_);
   if (*SDL_GetError() != '\0') return fail(ErrorCode::Lost, "the window cannot be drawn on any more; opening it again");

@@ -68,6 +68,7 @@ class WindowDisplay final : public Display {
   Duration refresh_period_{0};
   bool paced_ = false;      // swapping waits for the refresh
   bool film_size_ = false;  // the window takes each film's size
+  bool hidden_ = false;     // until the first frame of a film's own size
   SceneViews views_;
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;

@@ -80,6 +80,16 @@ TEST_F(WindowDisplay, UncoveredItIsToBeDrawnAnew) {
   EXPECT_TRUE(until([&] { return redraw_; }));
 }
 
+TEST_F(WindowDisplay, MinimisedItStaysSoWhileTheFilmPlays) {
+  drawCorners();
+  screen_->hide(window_);
+  EXPECT_TRUE(until([&, frames = 0]() mutable {
+    drawCorners();
+    EXPECT_FALSE(screen_->isShown(window_)) << "frame " << frames;
+    return ++frames == 20;
+  }));
+}
+
 TEST_F(WindowDisplay, FillsTheScreenAndGivesItBack) {
   screen_->focus(window_);
   for (const auto& [asked, wish] :

@@ -173,6 +173,16 @@ void XScreen::setResources(const std::string& text) const {
   XSync(connection_, False);
 }
 
+void XScreen::hide(unsigned long window) const {
+  XUnmapWindow(connection_, window);
+  XSync(connection_, False);
+}
+
+bool XScreen::isShown(unsigned long window) const {
+  XWindowAttributes attributes{};
+  return XGetWindowAttributes(connection_, window, &attributes) != 0 && attributes.map_state == IsViewable;
+}
+
 void XScreen::resize(unsigned long window, int width, int height) const {
   XResizeWindow(connection_, window, static_cast<unsigned>(width), static_cast<unsigned>(height));
   XSync(connection_, False);

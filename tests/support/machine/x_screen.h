@@ -41,6 +41,9 @@ class XScreen {
   [[nodiscard]] std::optional<Place> place(unsigned long window) const;
   // What a desktop's settings say to all programs, as "Xft.dpi:\t192\n".
   void setResources(const std::string& text) const;
+  // As a window manager does that minimises it.
+  void hide(unsigned long window) const;
+  [[nodiscard]] bool isShown(unsigned long window) const;
   void resize(unsigned long window, int width, int height) const;
   // As a window manager does.
   void move(unsigned long window, const Place& to) const;
