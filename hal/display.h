@@ -44,7 +44,7 @@ struct DisplayConfig {
   int height = 720;
   StereoSignal stereo = StereoSignal::None;  // requested; DisplaySurface has the signal that is sent
   bool other_stereo = false;                 // if the screen does not support `stereo`: the best signal that it does
-  bool film_size = false;                    // a window takes the size of each film instead (see `announce`)
+  bool film_size = false;                    // instead: a window's is each film's (see `announce`), a screen's its own
   bool fits_desktop = false;                 // a window is made smaller, in its shape, where the desktop has less room
 };
 

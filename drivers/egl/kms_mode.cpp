@@ -67,7 +67,7 @@ const drmModeModeInfo* chooseMode(std::span<const drmModeModeInfo> modes, const 
   const drmModeModeInfo *favourite = nullptr, *first = nullptr;
   for (const drmModeModeInfo& mode : modes) {
     if (!wanted(mode, config.stereo)) continue;
-    if (mode.hdisplay == config.width && mode.vdisplay == config.height) return &mode;
+    if (!config.film_size && mode.hdisplay == config.width && mode.vdisplay == config.height) return &mode;
     if (first == nullptr) first = &mode;
     if (favourite == nullptr && (mode.type & DRM_MODE_TYPE_PREFERRED) != 0) favourite = &mode;
   }

@@ -27,9 +27,9 @@ enum class Packing : std::uint8_t {
 // The stereo signals that any of the modes has.
 [[nodiscard]] StereoSignals stereoSignals(std::span<const drmModeModeInfo> modes) noexcept;
 
-// The first mode with `config`'s stereo signal and size; else the screen's preferred mode with that signal; else the
-// first mode with it. Interlaced and doublescan modes are skipped, and frame packing of other than 1080 or 720 rows.
-// Null if none is left.
+// The first mode with `config`'s stereo signal and size (not with `film_size`); else the screen's preferred mode with
+// that signal; else the first mode with it. Interlaced and doublescan modes are skipped, and frame packing of other
+// than 1080 or 720 rows. Null if none is left.
 [[nodiscard]] const drmModeModeInfo* chooseMode(std::span<const drmModeModeInfo> modes,
                                                 const DisplayConfig& config) noexcept;
 

@@ -98,8 +98,9 @@ void settleBrowser(PlayOptions& play) {
   if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
   if (play.films.empty()) play.films.push_back(usualFilms());
   play.player.browser = BrowserConfig{.folders = play.films, .takes_drops = play.display.plain("window")};
-  // One size for the list and all films.
-  if (no_film) play.player.display.fits_desktop = std::exchange(play.player.display.film_size, false);
+  // A window has one size for the list and all films.
+  if (no_film && play.display.plain("window"))
+    play.player.display.fits_desktop = std::exchange(play.player.display.film_size, false);
 }
 
 }  // namespace

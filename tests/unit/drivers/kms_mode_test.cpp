@@ -52,6 +52,11 @@ TEST(KmsMode, IsElseTheScreensFavourite) {
   EXPECT_EQ(chooseMode({}, {1280, 720}), nullptr);
 }
 
+// As `play` opens a screen without --size.
+TEST(KmsMode, IsTheScreensFavouriteWhereNoSizeIsAskedFor) {
+  EXPECT_TRUE(same(chooseMode(kTelevision, {.film_size = true}), kFullHd));
+}
+
 TEST(KmsMode, SendsTheSignalThatIsAskedFor) {
   EXPECT_TRUE(same(chooseMode(kTelevision, {1920, 1080, StereoSignal::FramePacking}), kFullHdPacked));
   EXPECT_TRUE(same(chooseMode(kTelevision, {1280, 720, StereoSignal::FramePacking}), kHdPacked));

@@ -55,6 +55,15 @@ TEST(Options, TheWindowOfTheListFitsTheDesktopUnlessASizeIsAskedFor) {
   EXPECT_FALSE(fits({"film.mkv"})) << "it takes the film's size";
 }
 
+TEST(Options, AScreenHasTheModeThatItPrefersUnlessASizeIsAskedFor) {
+  const auto own = [](const std::vector<const char*>& words) {
+    return parse(words, machineWith(false, true)).options->play.player.display.film_size;
+  };
+  EXPECT_TRUE(own({"film.mkv"}));
+  EXPECT_TRUE(own({})) << "the list";
+  EXPECT_FALSE(own({"film.mkv", "--size", "1280x720"}));
+}
+
 TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   ::setenv("HOME", "/home/anna", 1);
   ::unsetenv("XDG_VIDEOS_DIR");
