@@ -142,6 +142,7 @@ class Player {
   void followReader(MonotonicTime now);
   void followOpening(MonotonicTime now);
   void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
+  void rushNoMore(MonotonicTime now);
   void begin(MonotonicTime now);
   void announce(const DisplayVolume& volume);
   [[nodiscard]] std::string firstHint() const;

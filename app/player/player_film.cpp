@@ -125,10 +125,18 @@ void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) 
                            "the picture stops until enough is buffered");
     case FilmPlayback::Progress::Over:
       if (film_.isStill() && programme_.size() == 1) return;  // a photo is shown until another command
+      if (film_.rushes() && state_ == PlayerState::Buffering) return rushNoMore(now);
       return endFilm(now);
     case FilmPlayback::Progress::Failed:
       return failFilm();
   }
+}
+
+// There is no key frame from here to the end of the film.
+void Player::rushNoMore(MonotonicTime now) {
+  journal_.note("no fast forward here: the film has no more key frames", "it plays on at its usual rate");
+  film_.setRate(1, now);
+  seek(film_.goal(now), PlayerEvent::Seek, false, now);
 }
 
 // The first pair after a start, a seek or an underrun is on the screen before its clock starts, so that a slow first

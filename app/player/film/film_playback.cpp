@@ -155,7 +155,9 @@ FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
   }
   if (head_.last()) {
     const MediaTime position = clock_.position(now).value_or(MediaTime{});
-    const bool shown = position >= picture().color.pts + (isStill() ? kStillStands : period());
+    MediaTime end = picture().color.pts + (isStill() ? kStillStands : period());
+    if (rushes()) end = std::max(end, MediaTime(info_.duration));  // the last key frame stands for what follows it
+    const bool shown = position >= end;
     const bool sounds = rate_ == 1 && sound_.end() > position;  // longer than the picture
     return shown && !sounds ? overOrFailed() : Progress::Goes;
   }
@@ -198,10 +200,10 @@ bool FilmPlayback::arriving(MonotonicTime now) {
   return true;
 }
 
-// After a refused seek a film reads on from its end, and by key frames it may have none.
+// After a refused seek a film reads on from its end.
 bool FilmPlayback::gaveNone(MonotonicTime now) const {
   const bool from_begin = target_.value_or(MediaTime{}) == MediaTime{} && !refusesSeeks();
-  return from_begin && !rushes() && !clock_.position(now);
+  return from_begin && !clock_.position(now);
 }
 
 Result<void> FilmPlayback::pause(MonotonicTime now) {

@@ -167,6 +167,25 @@ TEST_F(PlayerTransport, WhereEveryFrameIsAKeyFrameOnlySoManyAreShownAsTheEyeFoll
   EXPECT_LE(bench_.report.frames_dropped, 1u);
 }
 
+TEST_F(PlayerTransport, WithoutAnotherKeyFrameItPlaysOnAtItsUsualRate) {
+  bench_.sources["film"].tracks[0].keyframe_interval = 200;  // the first picture only
+  bench_.press(1.0, KEY_FASTFORWARD);
+  bench_.press(1.0, KEY_FASTFORWARD);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_NEAR(bench_.report.wall_s, 4.0, 0.1);
+  EXPECT_EQ(bench_.faults("no more key frames"), 1u);
+}
+
+TEST_F(PlayerTransport, FastForwardComesToTheEndAtItsRateBehindTheLastKeyFrame) {
+  bench_.sources["film"] = PlayerBench::film(500);  // 20 s, key frames at 0, 8 and 16 s
+  bench_.sources["film"].tracks[0].keyframe_interval = 200;
+  bench_.press(1.0, KEY_FASTFORWARD);
+  playsWell();
+  EXPECT_NEAR(bench_.report.wall_s, 1 + (20 - 8) / 2.0, 0.1);
+  EXPECT_EQ(bench_.report.frames_shown, 25u + 2u);
+}
+
 TEST_F(PlayerTransport, OutOfFastForwardItGoesOnExactlyThereAndIsFeltAgain) {
   bench_.sources["film"] = PlayerBench::film(2000);
   bench_.sources["film"].tracks[0].keyframe_interval = 50;
