@@ -45,7 +45,7 @@ struct PlayerConfig {
   bool has_mouse = false;            // of a window
   bool mouse_touches = false;        // the mouse is the finger
   bool loop = false;
-  std::optional<MediaTime> start;  // of the first film; nullopt: its beginning, or where it was left
+  std::optional<MediaTime> start;  // of the film that opens; nullopt: its beginning, or where it was left
   bool unseen = false;             // off screen unasked: said when the first film has opened
   bool osd = true;                 // bar, keys and notices over the picture
   std::string volume_path;   // file in which the volume of each sound output is kept; empty: each run begins at 100 %

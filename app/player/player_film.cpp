@@ -64,9 +64,10 @@ void Player::stepOn(MonotonicTime now) {
 }
 
 void Player::seek(MediaTime target, PlayerEvent why, bool by_viewer, MonotonicTime now) {
+  target = std::max(target, MediaTime{});
+  if (state_ == PlayerState::Opening && apply(why)) return void(config_.start = target);
   if (why == PlayerEvent::Seek && film_.isStill()) return;  // a photo has no other place
   if (!apply(why)) return;
-  target = std::max(target, MediaTime{});
   // Picture and surface stay until the new picture comes, so that both agree.
   if (const auto clock = film_.clock()) touch_.feed(film_.depth(), {clock->at(now), now, 0});
   seeks_.asked(target, by_viewer, now);

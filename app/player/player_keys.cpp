@@ -10,6 +10,7 @@
 
 #include "app/player/player.h"
 #include "app/player/screen/notices.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -25,6 +26,21 @@ int pagesBy(std::uint16_t code) noexcept {
   constexpr std::array<std::uint16_t, 6> kBack{KEY_UP, KEY_LEFT, KEY_PAGEUP, BTN_DPAD_UP, BTN_DPAD_LEFT, BTN_TL};
   if (std::ranges::find(kOn, code) != kOn.end()) return 1;
   return std::ranges::find(kBack, code) != kBack.end() ? -1 : 0;
+}
+
+// Commands that need what only an open film has: pictures, a length, tracks, chapters.
+constexpr std::array kOfAnOpenFilm{PlayerVerb::Step,          PlayerVerb::StepBack,     PlayerVerb::Faster,
+                                   PlayerVerb::Slower,        PlayerVerb::NormalSpeed,  PlayerVerb::SeekShare,
+                                   PlayerVerb::AudioTrack,    PlayerVerb::ChapterBy,    PlayerVerb::LoopAB,
+                                   PlayerVerb::SubtitleTrack, PlayerVerb::ShowSubtitles};
+
+std::optional<std::string> trackRefusal(const PlayerCommand& command, const FilmInfo& film) {
+  const bool sound = command.verb == PlayerVerb::AudioTrack;
+  if (!sound && command.verb != PlayerVerb::SubtitleTrack) return std::nullopt;
+  const std::size_t tracks = sound ? film.sounds.size() : film.subtitles.size();
+  if (command.value <= static_cast<double>(tracks)) return std::nullopt;
+  return print("there is no %s %.0f; the film has %zu", sound ? "sound track" : "subtitle track", command.value,
+               tracks);
 }
 
 }  // namespace
@@ -130,6 +146,11 @@ std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
     if (opens && state_ == PlayerState::Idle && programme_.asked()) return std::nullopt;
     return state_ == PlayerState::Browsing ? "no film is open; choose one" : "no film is open; open one first";
   }
+  const auto is = [&](PlayerVerb verb) { return verb == command.verb; };
+  if (state_ == PlayerState::Opening && std::ranges::any_of(kOfAnOpenFilm, is)) return "the film is still being opened";
+  const bool steps = is(PlayerVerb::Step) || is(PlayerVerb::StepBack);
+  if (steps && !film_.rushes() && !nextState(state_, PlayerEvent::Step)) return "there is no picture to step from yet";
+  if (auto why = trackRefusal(command, film_.info())) return why;
   const std::size_t film = placeOnShelf().value_or(programme_.present());
   const std::size_t films = placeOnShelf() ? browser_->shelf().size() : programme_.size();
   if (command.verb != PlayerVerb::Next || film + 1 < films) return std::nullopt;
@@ -177,7 +198,7 @@ Situation Player::situation(MonotonicTime now) const {
   return {.state = state_,
           .held = film_.held(),
           .rate = film_.rate(),
-          .here = film_.goal(now),
+          .here = config_.start.value_or(film_.goal(now)),
           .length = film_.info().duration,
           .chapters = film_.info().chapters,
           .picture = film_.picture().color.pts,

@@ -44,6 +44,7 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
 // Sets the force to zero first; then closes the film and forgets its state.
 void Player::leaveFilm(MonotonicTime now) {
   if (!film_.isOpen()) return;
+  if (film_.opening() != FilmPlayback::Opening::IsList) config_.start.reset();  // a list's is that of its film
   touch_.rest();
   programme_.keepAtOnce(film_.placeToKeep(now), now);
   programme_.left(film_.begun());

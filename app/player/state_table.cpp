@@ -34,6 +34,7 @@ constexpr std::array kTransitions{
     Transition{S::Opening, E::Opened, S::Buffering},
     Transition{S::Opening, E::Play, S::Opening},   // heard: plays when filled
     Transition{S::Opening, E::Pause, S::Opening},  // accepted: paused once filled
+    Transition{S::Opening, E::Seek, S::Opening},   // heard: begins there
     Transition{S::Opening, E::Stop, S::Idle},
     Transition{S::Opening, E::Fail, S::Fault},
 

@@ -225,6 +225,34 @@ TEST_F(PlayerAndPrograms, WithoutAFilmItWaitsForOne) {
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
 }
 
+TEST_F(PlayerAndPrograms, AFilmBeginsWhereItIsSoughtWhileItOpens) {
+  bench_.config.source.url = "";
+  bench_.config.stays = true;
+  at(0.5, "status");
+  at(1, "quit");
+  play({"open film", "seek +3", "seek +2"});
+  ASSERT_EQ(answers().size(), 5U);
+  for (const json& answer : answers()) EXPECT_EQ(answer["ok"], true) << answer;
+  EXPECT_NEAR(answers()[3]["position_s"].get<double>(), 5.5, 0.1);
+}
+
+TEST_F(PlayerAndPrograms, WhatCannotBeDoneIsRefused) {
+  bench_.config.source.url = "";
+  bench_.config.stays = true;
+  at(0.5, "audio 5");
+  at(0.5, "subtitles 4");
+  at(1, "seek 8");
+  at(1, "step");
+  at(2, "quit");
+  play({"open film", "step", "chapter +1", "seek 50%"});
+  std::vector<std::string> refused;
+  for (const json& answer : answers()) refused.push_back(answer.value("error", ""));
+  const std::string opening = "the film is still being opened";
+  EXPECT_THAT(refused, ElementsAre("", opening, opening, opening, "there is no sound track 5; the film has 0",
+                                   "there is no subtitle track 4; the film has 0", "",
+                                   "there is no picture to step from yet", ""));
+}
+
 TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens) {
   bench_.config.source.url = "list.m3u";
   bench_.texts["list.m3u"] = "film\nother\n";

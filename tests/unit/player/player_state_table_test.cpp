@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, kPlayerStateCount> kExpected{
     "I...............F",  // boot
     ".wo.............F",  // idle
     "..o............IF",  // browsing
-    "..oB..oo.......IF",  // opening
+    "..oB..oo..o....IF",  // opening
     "..o.PuBB.BS..E.IF",  // buffering
     "..o....uuPS.BE.IF",  // playing
     "..o...P.uuS....IF",  // paused
