@@ -126,6 +126,10 @@ std::string pathOfFileUrl(std::string_view url) {
   return path;
 }
 
+std::string sourceNamed(const std::string& words) {
+  return words.starts_with("file:///") ? pathOfFileUrl(words) : words;
+}
+
 bool mayBePlaylist(std::string_view url) {
   const std::string name = nameOf(url);
   return name.ends_with(".m3u") || name.ends_with(".m3u8");

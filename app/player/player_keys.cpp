@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "app/media/playlist.h"
 #include "app/player/player.h"
 #include "app/player/screen/notices.h"
 #include "platform/print.h"
@@ -169,7 +170,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
       quitting_ = true;
       return;
     case PlayerVerb::Open:
-      return openList({{.url = command.word, .depth_url = "", .title = ""}}, now);
+      return openList({{.url = sourceNamed(command.word), .depth_url = "", .title = ""}}, now);
     case PlayerVerb::Stop:
       return stopFilm(now);
     case PlayerVerb::Loop:

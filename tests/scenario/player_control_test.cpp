@@ -225,15 +225,17 @@ TEST_F(PlayerAndPrograms, WithoutAFilmItWaitsForOne) {
   EXPECT_EQ(bench_.states(), "boot idle opening buffering playing idle");
 }
 
-TEST_F(PlayerAndPrograms, AFilmBeginsWhereItIsSoughtWhileItOpens) {
+TEST_F(PlayerAndPrograms, AFilmIsOpenedByItsAddressAndBeginsWhereItIsSoughtMeanwhile) {
+  bench_.sources["/a film"] = PlayerBench::film(250);
   bench_.config.source.url = "";
   bench_.config.stays = true;
   at(0.5, "status");
   at(1, "quit");
-  play({"open film", "seek +3", "seek +2"});
+  play({"open file:///a%20film", "seek +3", "seek +2"});
   ASSERT_EQ(answers().size(), 5U);
   for (const json& answer : answers()) EXPECT_EQ(answer["ok"], true) << answer;
   EXPECT_NEAR(answers()[3]["position_s"].get<double>(), 5.5, 0.1);
+  EXPECT_THAT(bench_.report.films, ElementsAre("/a film"));
 }
 
 TEST_F(PlayerAndPrograms, WhatCannotBeDoneIsRefused) {

@@ -96,7 +96,8 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   play.add_flag("--print-config", print_config,
                 "Print the settings that would be used, as a configuration, with the source of each value")
       ->configurable(false);
-  probe.add_option("SOURCE", options.probe.source.url, kSourceHelp)->type_name(" ")->required();
+  const auto take = [&source = options.probe.source](const std::string& words) { source.url = sourceNamed(words); };
+  probe.add_option_function<std::string>("SOURCE", take, kSourceHelp)->type_name(" ")->required();
   addDepthSource(probe, options.probe.source);
   probe.add_flag("--json", options.probe.json, "Print JSON, for programs");
   probe.footer(kProbeFooter);

@@ -14,7 +14,6 @@
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/help_texts.h"
 #include "hal/haptic_rate.h"
-#include "platform/files/answered_place.h"
 #include "platform/lower_case.h"
 #include "platform/print.h"
 
@@ -38,12 +37,7 @@ constexpr const char* kNoDuration = "a duration is more than 0 and at most a bil
 
 void addSources(CLI::App& command, PlayOptions& play) {
   const auto take = [&player = play.player](std::vector<std::string> sources) {
-    for (std::string& source : sources) {  // some desktops give a film's address
-      const std::string path = source == "-"                    ? "/dev/stdin"
-                               : source.starts_with("file:///") ? pathOfFileUrl(source)
-                                                                : "";
-      if (!path.empty() && isThere(path)) source = path;
-    }
+    for (std::string& source : sources) source = source == "-" ? "/dev/stdin" : sourceNamed(source);
     if (auto series = seriesOf(sources)) {
       player.source.url = std::move(*series);
       return;
