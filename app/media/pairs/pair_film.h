@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The private state of a PairReader, shared by its opening (pair_opening.cpp) and its reading (pair_reader.cpp).
+// The private state of a PairReader, and its parts with the file that each is in.
 #pragma once
 
 #include <atomic>
@@ -28,25 +28,27 @@ struct PairReader::Impl {
 
   explicit Impl(Backends b) : backends(std::move(b)) {}
 
+  // In pair_opening.cpp.
   Result<void> openReader();
-  Result<void> openFilm();
-  Result<void> openColor(const StreamInfo& color);
   void takeFilmOverDepth();
+  Result<void> openFilm();
+  void takeDepthBeside(const StreamInfo& color);
+  Result<void> openColor(const StreamInfo& color);
   // `depth`: of the colour's source, if the depth is no other source.
   Result<void> selectDepth(const StreamInfo* depth, const StreamInfo& color);
-  void takeDepthBeside(const StreamInfo& color);
-  [[nodiscard]] Frame materialAt(MediaTime time);
+  void lookForRegistration(const StreamInfo& color);
   Result<void> openDepth(const StreamInfo& color);
+  void countTracks(const TrackPlan& plan);
+  void meet(const DepthSource::Session& session, MediaTime first);
+  // In pair_words.cpp: sound and subtitles.
+  [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
   void openSound();
   void openWords();
   void readWordsOf(const std::string& path);
-  [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
-  void countTracks(const TrackPlan& plan);
   // In pair_reading.cpp: where the depth is.
   void lookAround();
   Result<TrackPlan> planFilm();
   void takeSmoothest(TrackPlan& plan);
-  void lookForRegistration(const StreamInfo& color);
   void lookForHalves(const StreamInfo& color);
   Result<const Frame*> firstDepth();
   Result<const Frame*> firstAsStated(const Frame& first);
@@ -74,21 +76,23 @@ struct PairReader::Impl {
   [[nodiscard]] Result<Frame> depthIn(const Frame& stored);
   void checkReach(const Frame& picture);
   [[nodiscard]] Frame tellingPicture(const Frame& first, const std::string& url, int stream);
+  // In pair_reader.cpp: the next pair.
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
   Result<DepthFollower::Supplied> supplyDepth();
   Result<DepthFollower::Supplied> supplyOwnDepth();
   Result<FramePair> pairFor(Frame color);
+  Result<DepthFollower::Match> depthAt(MediaTime time);
+  [[nodiscard]] Frame materialAt(MediaTime time);
+  void loseDepth(const Error& error);
   // In pair_late.cpp: pictures that are left out for lack of time.
   [[nodiscard]] std::optional<FramePair> depthBefore(const Frame& color);
-  Result<DepthFollower::Match> depthAt(MediaTime time);
-  Result<void> seekDepth(MediaTime target);
+  // In pair_jumps.cpp: seeking, and going on after a loss.
   Result<std::optional<Frame>> passTo(MediaTime target);
   [[nodiscard]] bool isGap(MediaTime target) const;
-  void meet(const DepthSource::Session& session, MediaTime first);
-  void loseDepth(const Error& error);
-  void leaveColor();
+  Result<void> seekDepth(MediaTime target);
   Result<void> goOn();
+  void leaveColor();
 
   // The stream, with the user's frame rate if one was given.
   [[nodiscard]] StreamInfo asTold(const StreamInfo& stream) const {
