@@ -47,7 +47,7 @@ struct PadMotors {
   int axes = 0;  // that constant force and spring act on: 1 (a wheel) or 2; 0 without either
 };
 
-// The effect of a level, with the id -1. It ends by itself after kEffectTime, in case nobody stops it.
+// The effect of a level, with the id -1. It ends by itself after kEffectMs, in case nobody stops it.
 inline constexpr std::uint16_t kEffectMs = 1000;
 [[nodiscard]] ff_effect effectOf(const RumbleLevel& level) noexcept;
 [[nodiscard]] ff_effect effectOf(const ConstantLevel& level) noexcept;

@@ -9,7 +9,7 @@ namespace relievo {
 // Writes bitrate.csv, a row for each codec, number of bits, kind of steps and crf, over all scenes:
 //
 // - `kbit_s`: the depth's, 720x486 at 30 frames/s, as relievo-author codes it.
-// - `force_rms`: error of relievo's force against the oracle, finger 5 mm deep at 0.1 m/s.
+// - `force_rms_percent`: error of relievo's force against the oracle, finger 5 mm deep at 0.1 m/s.
 // - `god_object_rms_percent`, `god_object_smoothed_rms_percent`: of the same finger with these methods.
 // - `height_rms_mm`, `height_max_mm`: of all samples, against depth of 16 bits.
 // - `steps`: even; "disparity": by the inverse law, far four times as far as near; "dithered": even, with an ordered
