@@ -110,6 +110,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.quantum_mm = stretch * quantum;
   m.noise_mm = stretch * noise;
   m.waves_mm = wavesOf(frames, stepsUnderNoise(m), m.noise_mm, m.still);
+  m.swells_mm = swellsOf(frames, m.noise_mm, m.still);
   m.speed_mm_per_s =
       std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;

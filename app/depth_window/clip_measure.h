@@ -19,6 +19,7 @@ struct ClipMeasure {
   double edges = 0;           // share of the places beside a step of more than 3 mm
   double ripples = 0;         // share of the steps between samples that are ripples (ripplesOf)
   Waves waves_mm{};           // relief that is fine for a wide smoothing (wavesOf)
+  Swells swells_mm{};         // relief that is fine for the broad level (swellsOf)
   double sample_mm = 0;       // pitch of the samples
   double period_s = 0;        // of the frames
   bool still = false;         // no sampled place changes

@@ -58,10 +58,13 @@ constexpr double kStepsOverWorstSlope = 5.06, kExpectedOfWorst = 0.5, kCodedOfWo
 constexpr double kFlattening = 5e-4;
 
 // Where the surface is straight, nothing is flattened by a broader level: twice as wide, it leaves half of the steps;
-// under noise, 2.5 times as wide, less than a quarter. Its control points then bend by less than half a step and by
-// less than three standard deviations of their noise in one frame, by which ControlGrid judges them; those of a ball of
-// 45 mm, 6 mm apart, bend by .8 mm.
-constexpr double kBroadOverWide = 2, kBroadUnderNoise = 2.5, kStepsBend = 0.5, kNoiseBends = 3;
+// under noise, 2.5 times as wide, less than a quarter. Its control points then bend by no more than three things do
+// together: a ball of 150 mm, half a step, and three standard deviations of the noise in one frame, by which
+// ControlGrid judges them. Those of a ball of 45 mm, 6 mm apart, bend by .8 mm.
+constexpr double kBroadOverWide = 2, kBroadUnderNoise = 2.5, kStraightRadiusMm = 150, kStepsBend = 0.5, kNoiseBends = 3;
+// Low waves bend no more than that. So there is no broad level where it would flatten swells by more than half of the
+// error that the wide level leaves, nor where waves are found: its points may lie on their middle line.
+constexpr double kFlattenedOfError = 0.5;
 
 bool needsMean(const ClipMeasure& m) {
   const double nod = kNodMmPerS2 * m.period_s * m.period_s;
@@ -86,6 +89,26 @@ void chooseLaws(const ClipMeasure& m, const LookAhead& ahead, bool noisy, bool f
   if (needsMean(m)) s.narrow_time = s.wide_time = TimeLaw::Mean;
   s.narrow_time = lawWithin(s.narrow_time, ahead.frames);
   s.wide_time = lawWithin(s.wide_time, ahead.frames);
+}
+
+// In a fine picture only about `read` x `read` samples of a block are read, or a few whole rows of them, so that a
+// finer picture is hardly less noisy. The distance of as many samples spread evenly:
+double samplesApart(const ClipMeasure& m, double width_mm, int read) {
+  const double block = width_mm / kSigmaPerPitch, across = block / m.sample_mm;
+  if (across <= read) return m.sample_mm;
+  const double down = m.whole_rows ? std::max<double>(SampledBlock::fewestRows(across), read * read / across) : read;
+  return block / std::sqrt((m.whole_rows ? across : read) * down);
+}
+
+void chooseBroad(bool noisy, TouchPlan& plan) {
+  const ClipMeasure& m = plan.measure;
+  FeltScale& s = plan.scale;
+  const double broad = (noisy ? kBroadUnderNoise : kBroadOverWide) * s.wide_mm;
+  if (swellsFlattenedBy(broad, m.swells_mm) > kFlattenedOfError * plan.error) return;
+  const double pitch = broad / kSigmaPerPitch, samples = pitch / samplesApart(m, broad, kBroadSamples);
+  s.broad_mm = broad;
+  s.straight_mm = pitch * pitch / kStraightRadiusMm + kStepsBend * stepsUnderNoise(m) +
+                  kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
 }
 
 std::string reasonFor(const TouchPlan& plan, const LookAhead& ahead) {
@@ -117,14 +140,7 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
 
   // Repeated frames carry the same noise, so averaging them does not reduce it.
   const double through = std::sqrt(m.still ? 1.0 : noiseThrough(s.wide_time, carried));
-  // In a fine picture only about `read` x `read` samples of a block are read, or a few whole rows of them, so that a
-  // finer picture is hardly less noisy. The distance of as many samples spread evenly:
-  const auto apart = [&](double w, int read) {
-    const double block = w / kSigmaPerPitch, across = block / m.sample_mm;
-    if (across <= read) return m.sample_mm;
-    const double down = m.whole_rows ? std::max<double>(SampledBlock::fewestRows(across), read * read / across) : read;
-    return block / std::sqrt((m.whole_rows ? across : read) * down);
-  };
+  const auto apart = [&m](double w, int read) { return samplesApart(m, w, read); };
   // The error of the force's direction is the error of the slope.
   const double steps = stepsUnderNoise(m);
   const bool coded = isCoded(m);
@@ -149,12 +165,7 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   s.narrow_steady_mm = steady(s.narrow_mm, kNarrowSamples, kSteadySteps);
   s.wide_steady_mm = steady(s.wide_mm, kWideSamples, coded ? kSteadyCoded : kSteadySteps);
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
-  // Where the broad level's points lie on the waves' middle line, waves look straight.
-  if (!fine && greatest(waves) <= steps) {
-    s.broad_mm = (noisy ? kBroadUnderNoise : kBroadOverWide) * s.wide_mm;
-    const double samples = s.broad_mm / kSigmaPerPitch / apart(s.broad_mm, kBroadSamples);
-    s.straight_mm = kStepsBend * steps + kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
-  }
+  if (!fine && greatest(waves) <= steps) chooseBroad(noisy, plan);
 
   // The narrow level's error must fit under the clamp: five standard deviations of its noise plus one step. Within that
   // the wide level alone counts (FeltSurface).

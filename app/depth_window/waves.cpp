@@ -17,6 +17,7 @@ constexpr double kFourthVariance = 70;      // 1 + 16 + 36 + 16 + 1
 constexpr double kQuantileOfNormal = 0.84;  // of the magnitude, for kShareOfPlaces
 constexpr double kTimesTheNoise = 2;        // that are no waves
 constexpr double kEnds = 0.01;              // of the range, which a codec blurs
+constexpr double kClips = 3;                // deviations of the means of frames: so near the ends noise is clipped
 
 // A smoothing of blocks of the size h loses a slope of about .2 b/h where b is the fourth difference of such blocks:
 // .16 to .29 on sines of 6 to 10 mm in relievo-lab, .11 on one of 14 mm. Of smaller blocks the difference is smaller by
@@ -57,7 +58,8 @@ struct Differences {
   }
 };
 
-double wavesOf(std::span<const TimedSurface> frames, double block_mm, double step_mm, double noise_mm) {
+double wavesOf(std::span<const TimedSurface> frames, double block_mm, double step_mm, double noise_mm,
+               double times_the_noise) {
   const HeightField& field = frames.front().field;
   const auto samples = [block_mm](double per_mm) {
     return std::max(1, static_cast<int>(std::lround(block_mm * std::abs(per_mm))));
@@ -66,10 +68,11 @@ double wavesOf(std::span<const TimedSurface> frames, double block_mm, double ste
   if (cols > field.cols() || rows > field.rows()) return 0;
   const SampledBlock block = field.blockOf(cols, rows, kBroadSamples);
   std::vector<Line> line(frames.size());
+  const double ends = kEnds + kClips * noise_mm / field.depthMm();
   const auto read = [&](std::size_t f, int c, int r) {
     const double mean = frames[f].field.meanHeight(c, r, block);
     const double share = mean / field.depthMm();
-    line[f].push_back(share > kEnds && share < 1 - kEnds ? mean : HeightField::kHole);
+    line[f].push_back(share > ends && share < 1 - ends ? mean : HeightField::kHole);
   };
   const auto lineOf = [&](Differences& found, auto&& read_frame) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -94,20 +97,40 @@ double wavesOf(std::span<const TimedSurface> frames, double block_mm, double ste
   for (Differences* found : {&across, &down}) {
     const double waves = quantile(found->mean, kShareOfPlaces);
     const double variance = std::max(quantile(found->variance, kShareOfPlaces), least_variance);
-    const double noise = kTimesTheNoise * kQuantileOfNormal * std::sqrt(variance);
+    const double noise = times_the_noise * kQuantileOfNormal * std::sqrt(variance);
     most2 = std::max(most2, waves * waves - noise * noise - step_mm * step_mm);
   }
   return std::sqrt(most2);
 }
 
+template <std::size_t kSizes>
+std::array<double, kSizes> ofSizes(const std::array<double, kSizes>& blocks_mm, std::span<const TimedSurface> frames,
+                                   double step_mm, double noise_mm, bool still, double times_the_noise) {
+  std::array<double, kSizes> waves{};
+  if (frames.empty()) return waves;
+  const double of_mean = noise_mm / std::sqrt(still ? 1.0 : static_cast<double>(frames.size()));
+  for (std::size_t k = 0; k < kSizes; ++k) waves[k] = wavesOf(frames, blocks_mm[k], step_mm, of_mean, times_the_noise);
+  return waves;
+}
+
+double flattened(double width_mm, std::span<const double> blocks_mm, std::span<const double> waves_mm) {
+  const double block = width_mm / kSigmaPerPitch;
+  double most = 0;
+  for (std::size_t k = 0; k < blocks_mm.size(); ++k) {
+    const double share = std::min(block / blocks_mm[k], 1.0);
+    most = std::max(most, share * share * share * waves_mm[k]);
+  }
+  return kSlopeOfWaves * most / block;
+}
+
 }  // namespace
 
 Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still) {
-  Waves waves{};
-  if (frames.empty()) return waves;
-  const double of_mean = noise_mm / std::sqrt(still ? 1.0 : static_cast<double>(frames.size()));
-  for (std::size_t k = 0; k < waves.size(); ++k) waves[k] = wavesOf(frames, kWaveBlocksMm[k], step_mm, of_mean);
-  return waves;
+  return ofSizes(kWaveBlocksMm, frames, step_mm, noise_mm, still, kTimesTheNoise);
+}
+
+Swells swellsOf(std::span<const TimedSurface> frames, double noise_mm, bool still) {
+  return ofSizes(kSwellBlocksMm, frames, 0, noise_mm, still, 1);
 }
 
 bool grow(const Waves& waves, double step_mm) {
@@ -115,13 +138,11 @@ bool grow(const Waves& waves, double step_mm) {
 }
 
 double flattenedBy(double width_mm, const Waves& waves) {
-  const double block = width_mm / kSigmaPerPitch;
-  double most = 0;
-  for (std::size_t k = 1; k < waves.size(); ++k) {
-    const double share = std::min(block / kWaveBlocksMm[k], 1.0);
-    most = std::max(most, share * share * share * waves[k]);
-  }
-  return kSlopeOfWaves * most / block;
+  return flattened(width_mm, std::span(kWaveBlocksMm).subspan(1), std::span(waves).subspan(1));
+}
+
+double swellsFlattenedBy(double width_mm, const Swells& swells) {
+  return flattened(width_mm, kSwellBlocksMm, swells);
 }
 
 }  // namespace relievo

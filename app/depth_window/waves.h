@@ -15,6 +15,9 @@ namespace relievo {
 inline constexpr std::array kWaveBlocksMm{1.55, 2.2, 3.1};
 inline constexpr double kShareOfPlaces = 0.6;
 using Waves = std::array<double, kWaveBlocksMm.size()>;
+// Larger ones, for what a broad smoothing would flatten.
+inline constexpr std::array kSwellBlocksMm{4.4, 6.2, 8.8};
+using Swells = std::array<double, kSwellBlocksMm.size()>;
 
 // For each size the fourth difference of the means of five blocks in a row, in mm, that kShareOfPlaces of the places do
 // not exceed, across or down, whichever is greater: 0 on every surface of the third order. The means are over all
@@ -24,6 +27,9 @@ using Waves = std::array<double, kWaveBlocksMm.size()>;
 // of each frame for each size.
 [[nodiscard]] Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still);
 
+// The same for the larger blocks, with what codes make of it, and less only what noise makes on average.
+[[nodiscard]] Swells swellsOf(std::span<const TimedSurface> frames, double noise_mm, bool still);
+
 [[nodiscard]] inline double greatest(const Waves& waves) {
   return *std::max_element(waves.begin() + 1, waves.end());
 }
@@ -31,5 +37,6 @@ using Waves = std::array<double, kWaveBlocksMm.size()>;
 [[nodiscard]] bool grow(const Waves& waves, double step_mm);
 // The error in the slope of a surface with such waves that smoothing of a width leaves.
 [[nodiscard]] double flattenedBy(double width_mm, const Waves& waves);
+[[nodiscard]] double swellsFlattenedBy(double width_mm, const Swells& swells);
 
 }  // namespace relievo
