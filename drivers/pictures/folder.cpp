@@ -61,11 +61,13 @@ Result<Listing> listingOf(const std::string& folder) {
   return listing;
 }
 
-// Leaves out pictures beside the others that their names tell to be something else ("1.pgm", "1_ab.pgm").
-std::vector<std::string> withoutOthers(std::vector<std::string> names, std::size_t& left_out) {
+// Leaves out pictures beside the others that their names tell to be something else ("1.pgm", "1_ab.pgm"),
+// and depth of another kind or ending.
+std::vector<std::string> chosen(std::vector<std::string> names, Role role, FoundPictures& found) {
   const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
-  if (!std::ranges::all_of(names, isOther)) left_out += std::erase_if(names, isOther);
-  return names;
+  if (!std::ranges::all_of(names, isOther)) found.left_out += std::erase_if(names, isOther);
+  if (role == Role::Depth) found.left_out += keepBestDepth(names);
+  return oneKind(std::move(names), found.left_out);
 }
 
 // Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
@@ -73,7 +75,6 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   std::map<Role, std::vector<std::string>> by_role;
   for (const std::string& name : names) by_role[roleOf(name)].push_back(name);
   auto& depth = by_role[Role::Depth];
-  if (!std::ranges::all_of(depth, isPaintedDepth)) std::erase_if(depth, isPaintedDepth);
   if (depth.empty()) {
     std::vector<std::string> color = names;
     found.depth = {folder, takeDepthOfPhotos(folder, color)};
@@ -83,19 +84,18 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
   keepLeftView(depth), keepLeftView(color);
   found.left_out += names.size() - depth.size() - color.size();
-  found.depth = {folder, oneKind(depth, found.left_out)};
+  found.depth = {folder, chosen(depth, Role::Depth, found)};
   found.color = {folder, oneKind(color, found.left_out)};
 }
 
 // The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0").
-PictureFiles picturesIn(const std::string& folder, FoundPictures& found) {
+PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found) {
   auto listing = listingOf(folder).value_or(Listing{});
-  if (!listing.pictures.empty())
-    return {folder, oneKind(withoutOthers(std::move(listing.pictures), found.left_out), found.left_out)};
+  if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found)};
   std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
     auto inner = listingOf(folder + name).value_or(Listing{}).pictures;
-    if (!inner.empty()) return {folder + name + "/", oneKind(std::move(inner), found.left_out)};
+    if (!inner.empty()) return {folder + name + "/", chosen(std::move(inner), role, found)};
   }
   return {folder, {}};
 }
@@ -103,15 +103,15 @@ PictureFiles picturesIn(const std::string& folder, FoundPictures& found) {
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
-    return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", found);
+    return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found);
   };
   found.color = open(Role::Color);
   found.depth = open(Role::Depth);
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
-    found.color = stereo ? picturesIn(folder + stereo->left + "/", found)
+    found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
                          : PictureFiles{folder, oneKind(listing.pictures, found.left_out)};
-    if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", found).names.size();
+    if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", Role::Color, found).names.size();
   }
   return !found.color.names.empty() || !found.depth.names.empty();
 }
@@ -134,8 +134,8 @@ bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPi
   const auto stereo = stereoAmong(names, Named::Folders);
   if (!stereo || !stereo->depth.empty()) return false;
   FoundPictures views{.views = true};
-  views.color = picturesIn(folder + stereo->left + "/", views);
-  views.depth = picturesIn(folder + stereo->right + "/", views);
+  views.color = picturesIn(folder + stereo->left + "/", Role::Color, views);
+  views.depth = picturesIn(folder + stereo->right + "/", Role::Color, views);
   if (views.color.names.empty() || views.depth.names.empty()) return false;
   found = std::move(views);
   return true;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <tuple>
+#include <map>
+#include <set>
 
 #include "hal/media/media_names.h"
 #include "platform/lower_case.h"
@@ -32,6 +33,12 @@ std::vector<std::string> wordsOf(std::string_view name) {
   return words;
 }
 
+std::vector<std::string> sortedWordsOf(std::string_view name) {
+  auto words = wordsOf(name);
+  std::ranges::sort(words);
+  return words;
+}
+
 template <std::size_t N>
 bool holdsOne(const std::vector<std::string>& words, const std::array<std::string_view, N>& known) {
   return std::ranges::any_of(words, [&](const auto& word) { return std::ranges::find(known, word) != known.end(); });
@@ -50,6 +57,36 @@ bool beginsWith(std::string_view name, char letter) {
          std::isdigit(static_cast<unsigned char>(name[2])) != 0;
 }
 
+std::string_view stemOf(std::string_view name) {
+  return name.substr(0, name.rfind('.'));
+}
+
+// The runs of digits, parted by spaces.
+std::string digitsOf(std::string_view name) {
+  std::string digits;
+  bool parted = false;
+  for (const char c : name) {
+    const bool digit = c >= '0' && c <= '9';
+    if (digit && parted && !digits.empty()) digits += ' ';
+    if (digit) digits += c;
+    parted = !digit;
+  }
+  return digits;
+}
+
+// Whether a picture or a folder of this name is to be preferred to the other.
+bool isBetter(const std::string& a, const std::string& b) {
+  const auto words_a = wordsOf(a), words_b = wordsOf(b);
+  const auto isPaintedDepth = [](const std::string& name, const std::vector<std::string>& words) {
+    return roleOf(name) == Role::Depth && holdsOne(words, kPainted);
+  };
+  const bool painted_a = isPaintedDepth(a, words_a), painted_b = isPaintedDepth(b, words_b);
+  if (painted_a != painted_b) return painted_b;
+  const bool aligned_a = holdsOne(words_a, kInColorsView), aligned_b = holdsOne(words_b, kInColorsView);
+  if (aligned_a != aligned_b) return aligned_a;
+  return words_a.size() != words_b.size() ? words_a.size() < words_b.size() : naturalLess(a, b);
+}
+
 }  // namespace
 
 Role roleOf(std::string_view name) {
@@ -61,7 +98,7 @@ Role roleOf(std::string_view name) {
 }
 
 std::string keyOf(std::string_view name) {
-  const std::string_view stem = name.substr(0, name.rfind('.'));
+  const std::string_view stem = stemOf(name);
   const auto kindOf = [](unsigned char c) {  // beyond ASCII all are letters
     return std::isalpha(c) != 0 || c >= 0x80 ? 2 : std::isdigit(c) != 0 ? 1 : 0;
   };
@@ -75,8 +112,20 @@ std::string keyOf(std::string_view name) {
   return key;
 }
 
-bool isPaintedDepth(std::string_view name) {
-  return roleOf(name) == Role::Depth && holdsOne(wordsOf(name), kPainted);
+std::size_t keepBestDepth(std::vector<std::string>& names) {
+  if (names.empty()) return 0;
+  std::map<std::vector<std::string>, std::set<std::string>> kinds;  // digits by words
+  for (const std::string& name : names) kinds[sortedWordsOf(stemOf(name))].insert(digitsOf(stemOf(name)));
+  const auto best = kinds.find(sortedWordsOf(stemOf(*std::ranges::min_element(names, isBetter))));
+  const bool painted = holdsOne(best->first, kPainted);
+  std::erase_if(kinds, [&](const auto& kind) {
+    const auto& [words, digits] = kind;
+    if (words == best->first) return false;
+    if (!painted && holdsOne(words, kPainted)) return true;
+    const bool related = std::ranges::includes(words, best->first) || std::ranges::includes(best->first, words);
+    return related && std::ranges::any_of(digits, [&](const auto& each) { return best->second.contains(each); });
+  });
+  return std::erase_if(names, [&](const auto& name) { return !kinds.contains(sortedWordsOf(stemOf(name))); });
 }
 
 void keepLeftView(std::vector<std::string>& names) {
@@ -90,13 +139,7 @@ std::string bestOf(const std::vector<std::string>& names, Role role) {
   std::vector<std::string> found;
   std::ranges::copy_if(names, std::back_inserter(found), [role](const auto& name) { return roleOf(name) == role; });
   if (found.empty()) return "";
-  return *std::ranges::min_element(found, [](const std::string& a, const std::string& b) {
-    const auto words_a = wordsOf(a), words_b = wordsOf(b);
-    if (isPaintedDepth(a) != isPaintedDepth(b)) return isPaintedDepth(b);
-    const bool aligned_a = holdsOne(words_a, kInColorsView), aligned_b = holdsOne(words_b, kInColorsView);
-    if (aligned_a != aligned_b) return aligned_a;
-    return words_a.size() != words_b.size() ? words_a.size() < words_b.size() : naturalLess(a, b);
-  });
+  return *std::ranges::min_element(found, isBetter);
 }
 
 }  // namespace relievo::pictures

@@ -2,6 +2,7 @@
 // Whether a name of a file or a folder says colour or depth.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -23,8 +24,10 @@ enum class Role : std::uint8_t {
 // ending, the words of colour and depth, and what separates the others.
 [[nodiscard]] std::string keyOf(std::string_view name);
 
-// Whether a name of depth says that it is painted for the eye: "depth_vis", "depth_colormap".
-[[nodiscard]] bool isPaintedDepth(std::string_view name);
+// Keeps the pictures of a folder that are of the kind of its best depth. Left out are those that the names tell to be
+// another one of the same frames: "0-depth_true.png" beside "0-depth.png", and all that are painted for the eye
+// ("0-depth_vis.png") beside others. Returns how many are.
+[[nodiscard]] std::size_t keepBestDepth(std::vector<std::string>& names);
 
 // Drops the names that say "right" if others say "left".
 void keepLeftView(std::vector<std::string>& names);

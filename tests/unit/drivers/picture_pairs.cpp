@@ -33,5 +33,24 @@ TEST_F(Pictures, DepthBelongsToTheColourOfItsName) {
                                        "400 k/disp_occ_0/000002_10.png"));
 }
 
+// NYCU's and others' depth_true, Depth Anything's depth_vis. Photos, too, may share their numbers.
+TEST_F(Pictures, OfSeveralKindsOfDepthForAFrameOneIsTaken) {
+  for (const char* name : {"000000", "000001"}) {
+    for (const char* kind : {"-color", "-depth", "-depth_true", "-label"})
+      file("a/" + std::string(name) + kind + ".png");
+    file("b/color/" + std::string(name) + ".png");
+    for (const char* kind : {"_depth", "_depth_vis"}) file("b/depth/" + std::string(name) + kind + ".png");
+    for (const char* kind : {"", "_raw"}) file("c/depth/" + std::string(name) + kind + ".png");
+  }
+  const Film a = read(folder_ / "a", 10);
+  EXPECT_THAT(a.depth, ElementsAre("0 a/000000-depth.png", "100 a/000001-depth.png"));
+  EXPECT_THAT(a.notes, Contains("4 other pictures are left out"));
+  EXPECT_THAT(read(folder_ / "b", 10).depth, ElementsAre("0 b/depth/000000_depth.png", "100 b/depth/000001_depth.png"));
+  EXPECT_THAT(read(folder_ / "c", 10).color, ElementsAre("0 c/depth/000000.png", "100 c/depth/000001.png"));
+  for (const char* name : {"cat1", "dog1", "dog2"})
+    file("p/" + std::string(name) + "-image.jpg"), file("p/" + std::string(name) + "-depth.png");
+  EXPECT_EQ(read(folder_ / "p").depth.size(), 3u);
+}
+
 }  // namespace
 }  // namespace relievo
