@@ -15,6 +15,8 @@
 namespace relievo::pictures {
 namespace {
 
+constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
+
 bool isPhoto(const std::string& name) {
   const std::string ending = endingOf(name);
   return ending == "jpg" || ending == "jpeg";
@@ -31,11 +33,18 @@ bool isGray16Png(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out) {
+std::ptrdiff_t depthRankOf(const std::string& name) {
+  return std::ranges::find(kEndings, endingOf(name)) - kEndings.begin();
+}
+
+std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out) {
   std::map<std::string, std::size_t> count;
   for (const std::string& name : names) ++count[endingOf(name)];
   if (count.size() < 2) return names;
-  const std::string most = std::ranges::max_element(count, {}, [](const auto& entry) { return entry.second; })->first;
+  const auto worth = [role](const auto& entry) {
+    return std::pair(entry.second, role == Role::Depth ? -depthRankOf('.' + entry.first) : 0);
+  };
+  const std::string most = std::ranges::max_element(count, {}, worth)->first;
   left_out += std::erase_if(names, [&](const std::string& name) { return endingOf(name) != most; });
   return names;
 }

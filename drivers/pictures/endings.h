@@ -6,10 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "drivers/pictures/roles.h"
+
 namespace relievo::pictures {
 
-// Keeps the names with the most frequent ending; counts the others.
-[[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, std::size_t& left_out);
+// The place of a picture's ending in the order of preference for depth: formats of floating-point numbers first.
+[[nodiscard]] std::ptrdiff_t depthRankOf(const std::string& name);
+
+// Keeps the names with the most frequent ending, or, of depth with several such, the preferred one; counts the others.
+[[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out);
 
 // Takes depth out of `names` where photos and their depth differ in the ending alone: "1.jpg" beside a gray "1.png" of
 // 16 bits, whose head is read, or "1.pfm". Empty if there is none.

@@ -67,7 +67,7 @@ std::vector<std::string> chosen(std::vector<std::string> names, Role role, Found
   const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
   if (!std::ranges::all_of(names, isOther)) found.left_out += std::erase_if(names, isOther);
   if (role == Role::Depth) found.left_out += keepBestDepth(names);
-  return oneKind(std::move(names), found.left_out);
+  return oneKind(std::move(names), role, found.left_out);
 }
 
 // Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
@@ -78,14 +78,14 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   if (depth.empty()) {
     std::vector<std::string> color = names;
     found.depth = {folder, takeDepthOfPhotos(folder, color)};
-    found.color = {folder, oneKind(std::move(color), found.left_out)};
+    found.color = {folder, oneKind(std::move(color), Role::Color, found.left_out)};
     return;
   }
   auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
   keepLeftView(depth), keepLeftView(color);
   found.left_out += names.size() - depth.size() - color.size();
   found.depth = {folder, chosen(depth, Role::Depth, found)};
-  found.color = {folder, oneKind(color, found.left_out)};
+  found.color = {folder, oneKind(color, Role::Color, found.left_out)};
 }
 
 // The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0").
@@ -110,7 +110,7 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
     found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
-                         : PictureFiles{folder, oneKind(listing.pictures, found.left_out)};
+                         : PictureFiles{folder, oneKind(listing.pictures, Role::Color, found.left_out)};
     if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", Role::Color, found).names.size();
   }
   return !found.color.names.empty() || !found.depth.names.empty();

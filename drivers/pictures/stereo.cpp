@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "hal/media/media_names.h"
+#include "drivers/pictures/endings.h"
 #include "platform/lower_case.h"
 
 namespace relievo::pictures {
@@ -36,22 +36,16 @@ constexpr std::array<Layout, 12> kLayouts{{
     {"image_02", "image_03", {}, "", Named::Folders},
     {"image_2", "image_3", {}, "", Named::Folders},
 }};
-// In the order of preference, formats of floating-point numbers first.
-constexpr std::array<std::string_view, 6> kEndings{"pfm", "npy", "exr", "tif", "tiff", "png"};
 
 std::string stemOf(const std::string& name) {
   return lowerCase(name.substr(0, name.rfind('.')));
-}
-
-auto rankOf(const std::string& name) {
-  return std::ranges::find(kEndings, endingOf(name)) - kEndings.begin();
 }
 
 // Empty if there is none.
 std::string find(const std::vector<std::string>& names, std::string_view stem) {
   std::string best;
   for (const std::string& name : names) {
-    if (stemOf(name) == stem && (best.empty() || rankOf(name) < rankOf(best))) best = name;
+    if (stemOf(name) == stem && (best.empty() || depthRankOf(name) < depthRankOf(best))) best = name;
   }
   return best;
 }

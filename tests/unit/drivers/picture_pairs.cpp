@@ -52,5 +52,17 @@ TEST_F(Pictures, OfSeveralKindsOfDepthForAFrameOneIsTaken) {
   EXPECT_EQ(read(folder_ / "p").depth.size(), 3u);
 }
 
+// monodepth2: numbers beside a picture of them for the eye.
+TEST_F(Pictures, OfTwoEndingsOfDepthTheOneWithNumbersIsTaken) {
+  for (const char* name : {"0", "1"}) {
+    for (const char* kind : {".png", "_disp.npy", "_disp.jpeg"}) file("m/" + std::string(name) + kind);
+    for (const char* kind : {"rgb/", "depth/"})
+      for (const char* ending : {".jpg", ".npy"}) file("d/" + std::string(kind) + name + ending);
+  }
+  EXPECT_EQ(read(folder_ / "m").depth.front(), "0 m/0_disp.npy");
+  EXPECT_EQ(read(folder_ / "d").depth.front(), "0 d/depth/0.npy");
+  EXPECT_EQ(read(folder_ / "d").color.front(), "0 d/rgb/0.jpg");
+}
+
 }  // namespace
 }  // namespace relievo
