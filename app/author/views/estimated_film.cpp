@@ -7,6 +7,8 @@
 #include "app/estimate/depth_command.h"
 #include "app/estimate/depth_network.h"
 #include "app/estimate/raw_picture.h"
+#include "app/media/reading/depth_doubts.h"
+#include "app/media/reading/picture_look.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -22,6 +24,19 @@ constexpr int kLeastSide = 16;
 bool isNetwork(const std::string& how) {
   std::error_code none;
   return how.ends_with(".onnx") && (how.find(' ') == std::string::npos || std::filesystem::is_regular_file(how, none));
+}
+
+// A film that begins in black says nothing.
+std::vector<std::string> doubtsOfMade(const FramePair& first) {
+  if (isBlank(first.color)) return {};
+  const DepthCalibration calibration = SteadyRelief::calibration();
+  std::vector<std::string> doubts = doubtsOf(first.depth, calibration, &first.color);
+  if (!isLevel(first.depth, calibration) && nearerBelow(first.depth, calibration) < -kClearlyNearer) {
+    doubts.emplace_back(
+        "the depth that was made is nearer above than below, as few views are: if larger is farther in it, as in "
+        "distances, play the film with --calibration polarity=near-low");
+  }
+  return doubts;
 }
 
 }  // namespace
@@ -108,7 +123,9 @@ FilmInfo EstimatedFilm::described(FilmInfo info, const FramePair& first) {
   info.depth_height = first.depth.height;
   info.calibration = {};
   info.calibration.calibration = SteadyRelief::calibration();
-  info.reading.doubts.clear();  // that it has no depth
+  // In place of those that it has no depth, or is depth itself.
+  info.reading.doubts = doubtsOfMade(first);
+  std::erase_if(info.notes, [](const std::string& note) { return note.ends_with("--packing depth-alone"); });
   info.reading.parts = {{"kind", "guessed from one view", CalibrationOrigin::CommandLine},
                         {"polarity", "near-high", CalibrationOrigin::FirstPicture}};
   info.reading.why.emplace_back("relative depth: heights are linear in inverse distance, of unknown scale");

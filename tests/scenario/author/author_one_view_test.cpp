@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <tuple>
 #include <vector>
 
 #include "app/author/author.h"
@@ -120,6 +121,43 @@ TEST_F(AuthorOneView, ADriftingFlickeringLateEstimatorMakesASteadyFilm) {
   const auto again = make(kMock, "has-depth.mkv");
   ASSERT_FALSE(again.has_value());
   EXPECT_THAT(again.error().error.message, HasSubstr("has depth, in it or in a file beside it"));
+}
+
+// Writes the same for each picture: `code`, of the row r.
+std::string writing(const std::string& code) {
+  return "python3 -c 'import os, sys; w, h = (int(os.environ[k]) for k in (\"RELIEVO_WIDTH\", \"RELIEVO_HEIGHT\")); "
+         "sys.stdin.buffer.read(); [sys.stdout.buffer.write((" +
+         code + ").to_bytes(2, \"little\") * w) for _ in range(" + std::to_string(kPictures) + ") for r in range(h)]'";
+}
+
+TEST_F(AuthorOneView, DoubtsDepthThatIsFlatOrNearerAbove) {
+  const auto flat = Contains(HasSubstr("is one code")), above = Contains(HasSubstr("nearer above than below"));
+  for (const auto& [code, is_flat, is_above] :
+       {std::tuple("0", true, false), {"9000 - 90 * r", false, true}, {"900 + 90 * r", false, false}}) {
+    std::filesystem::remove(folder_ / "out.mkv");
+    const auto summary = make(writing(code));
+    ASSERT_TRUE(summary.has_value()) << summary.error().thing << ": " << summary.error().error.message;
+    EXPECT_EQ(testing::Value(summary->notes, flat), is_flat) << code;
+    EXPECT_EQ(testing::Value(summary->notes, above), is_above) << code;
+  }
+}
+
+TEST_F(AuthorOneView, AGrayFilmIsNotTakenForDepth) {
+  makeClip(folder_ / "gray.mkv", {{.pix_fmt = "gray",
+                                   .width = kCols,
+                                   .height = kRows,
+                                   .frames = kPictures,
+                                   .sample = [this](int, int c, int r, int k) -> std::uint32_t {
+                                     return views_[static_cast<std::size_t>(k)]
+                                         .light[static_cast<std::size_t>(r) * kCols + static_cast<std::size_t>(c)];
+                                   }}});
+  const auto as_depth = Contains(HasSubstr("--packing depth-alone"));
+  PairReader reader(kBackends);
+  ASSERT_TRUE(reader.open({.url = folder_ / "gray.mkv"}).has_value());
+  EXPECT_THAT(reader.info().notes, as_depth);
+  const auto summary = make(writing("900 + 90 * r"), "gray.mkv");
+  ASSERT_TRUE(summary.has_value()) << summary.error().thing << ": " << summary.error().error.message;
+  EXPECT_THAT(summary->notes, testing::Not(as_depth));
 }
 
 TEST_F(AuthorOneView, RefusesInOneLineAndLeavesNoFilm) {
