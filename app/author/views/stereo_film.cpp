@@ -86,6 +86,7 @@ Outcome<StereoFilm> StereoFilm::survey(const SourceOptions& source, const PairRe
     if (!plan) return std::unexpected(plan.error());
   }
   StereoFilm film(std::move(*told), std::move(*plan), swapped);
+  film.order_told_ = order_known || swap != SwapEyes::Auto;
   if (looks_swapped && swap == SwapEyes::Auto) {
     film.notes_.insert(
         film.notes_.begin(),
@@ -108,7 +109,9 @@ FilmInfo StereoFilm::described(FilmInfo info) const {
   info.calibration = {};
   info.calibration.calibration = StereoDepth::calibration();
   info.reading.doubts.clear();  // that it has two views and no depth
-  info.reading.parts = {{"kind", "made from its two views", CalibrationOrigin::CommandLine}};
+  info.reading.parts = {
+      {"kind", "made from its two views", CalibrationOrigin::CommandLine},
+      {"polarity", "near-high", order_told_ ? CalibrationOrigin::CommandLine : CalibrationOrigin::FirstPicture}};
   info.reading.why.push_back(print("linear in disparity, %zu %s", depth_.plan().shots.size(),
                                    depth_.plan().shots.size() == 1 ? "shot" : "shots, each over its own range"));
   return info;

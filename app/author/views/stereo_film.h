@@ -42,6 +42,7 @@ class StereoFilm {
   SourceOptions source_;
   StereoDepth depth_;
   bool swapped_;
+  bool order_told_ = false;  // which eye's view is which, by the user or by the pictures
   std::vector<std::string> notes_;
 };
 
