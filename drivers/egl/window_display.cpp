@@ -27,8 +27,10 @@ bool startSdl() {
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // the click that focuses the window counts as well
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   SDL_SetHint(SDL_HINT_APP_NAME, kWindowTitle);
+  SDL_setenv("SDL_IM_MODULE", "none", 0);  // keep input methods from consuming keys
   if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return false;
-  SDL_StopTextInput();  // keep input methods from consuming keys
+  SDL_StopTextInput();
+  SDL_EventState(SDL_TEXTINPUT, SDL_ENABLE);  // the signs of keys
   SDL_GL_ResetAttributes();
   for (const auto& [attribute, value] : {std::pair{SDL_GL_CONTEXT_PROFILE_MASK, int{SDL_GL_CONTEXT_PROFILE_ES}},
                                          {SDL_GL_CONTEXT_MAJOR_VERSION, 3},

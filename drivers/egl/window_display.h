@@ -4,6 +4,8 @@
 
 #include <SDL.h>
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,7 +74,8 @@ class WindowDisplay final : public Display {
   SceneViews views_;
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;
-  bool press_taken_ = false;  // by what is drawn over the picture
+  std::array<std::uint16_t, SDL_NUM_SCANCODES> held_keys_{};  // the code of each, by scancode
+  bool press_taken_ = false;                                  // by what is drawn over the picture
   std::vector<std::string> dropped_;
   bool redraw_ = false;
   bool closed_by_viewer_ = false;

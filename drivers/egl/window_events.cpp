@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "drivers/egl/window_display.h"
 #include "drivers/egl/window_keys.h"
@@ -14,6 +15,13 @@ namespace {
 // Where the centre of a pixel lies, from 0 to 1 across all pixels. A pixel outside counts as the nearest one inside.
 double shareOf(int pixel, int pixels) noexcept {
   return (std::clamp(pixel, 0, std::max(pixels - 1, 0)) + 0.5) / std::max(pixels, 1);
+}
+
+// The text of the key press that SDL has just told of: its next event, if it makes any.
+std::string typedNext() {
+  SDL_Event next{};
+  const bool any = SDL_PeepEvents(&next, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) == 1;
+  return any && next.type == SDL_TEXTINPUT ? next.text.text : "";
 }
 
 }  // namespace
@@ -80,11 +88,12 @@ void WindowDisplay::hearDrop(const SDL_DropEvent& event) {
 
 void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
   const bool down = event.state == SDL_PRESSED;
-  const auto code = linuxKey(event.keysym);
-  if (!code) return;
+  std::uint16_t& held = held_keys_[event.keysym.scancode];  // a release has no sign
+  if (down && event.repeat == 0) held = linuxKey(event.keysym, typedNext()).value_or(KEY_RESERVED);
+  if (held == KEY_RESERVED) return;
   using Action = KeyEvent::Action;
   const Action action = !down ? Action::Release : event.repeat != 0 ? Action::Repeat : Action::Press;
-  static_cast<void>(input_->keys.tryPush({.code = *code, .action = action, .time = clock_.now()}));
+  static_cast<void>(input_->keys.tryPush({.code = held, .action = action, .time = clock_.now()}));
 }
 
 void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables: from SDL's symbols to the codes of what is printed on a key, and from its scancodes, which are USB usages
+// Tables: from signs to the codes of the keys that have them in the USA, and from SDL's scancodes, which are USB usages
 // (HID Usage Tables, 10 and 15), to Linux key codes as in the kernel's hid-input.c.
 #include "drivers/egl/window_keys.h"
 
 #include <linux/input-event-codes.h>
 
-#include <span>
+#include "hal/key_names.h"
 
 namespace relievo {
 namespace {
@@ -143,24 +143,39 @@ constexpr KeyPair kKeys[] = {
 };
 
 struct SignPair {
-  SDL_Keycode sign;
+  char sign;
   std::uint16_t code;
 };
-// Characters that a US keyboard has only with shift.
+// The keys of the USA that have these signs. For $ % ^ & ( ), which have digits there, the position counts: in France
+// they are where those digits are.
 constexpr SignPair kSigns[] = {
-    {SDLK_HASH, KEY_NUMERIC_POUND}, {SDLK_QUESTION, KEY_QUESTION}, {SDLK_LESS, KEY_PREVIOUS},
-    {SDLK_GREATER, KEY_NEXT},       {SDLK_PLUS, KEY_KPPLUS},       {SDLK_ASTERISK, KEY_KPASTERISK},
+    {'#', KEY_NUMERIC_POUND},
+    {'?', KEY_QUESTION},
+    {'<', KEY_PREVIOUS},
+    {'>', KEY_NEXT},
+    {'+', KEY_KPPLUS},
+    {'*', KEY_KPASTERISK},
+    {'!', KEY_1 | kWithShift},
+    {'@', KEY_2 | kWithShift},
+    {'-', KEY_MINUS},
+    {'_', KEY_MINUS | kWithShift},
+    {'=', KEY_EQUAL},
+    {'[', KEY_LEFTBRACE},
+    {'{', KEY_LEFTBRACE | kWithShift},
+    {']', KEY_RIGHTBRACE},
+    {'}', KEY_RIGHTBRACE | kWithShift},
+    {'\\', KEY_BACKSLASH},
+    {'|', KEY_BACKSLASH | kWithShift},
+    {';', KEY_SEMICOLON},
+    {':', KEY_SEMICOLON | kWithShift},
+    {'\'', KEY_APOSTROPHE},
+    {'"', KEY_APOSTROPHE | kWithShift},
+    {'`', KEY_GRAVE},
+    {'~', KEY_GRAVE | kWithShift},
+    {',', KEY_COMMA},
+    {'.', KEY_DOT},
+    {'/', KEY_SLASH},
 };
-// The characters of a US keyboard's keys with shift.
-constexpr SignPair kShifted[] = {
-    {SDLK_3, KEY_NUMERIC_POUND}, {SDLK_SLASH, KEY_QUESTION}, {SDLK_COMMA, KEY_PREVIOUS}, {SDLK_PERIOD, KEY_NEXT}};
-
-std::optional<std::uint16_t> codeOf(std::span<const SignPair> pairs, SDL_Keycode sign) noexcept {
-  for (const SignPair& pair : pairs) {
-    if (pair.sign == sign) return pair.code;
-  }
-  return std::nullopt;
-}
 
 std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
   for (const KeyPair& key : kKeys) {
@@ -171,32 +186,20 @@ std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
 
 // SDL's scancodes of the letters are in the order of the alphabet, and so are its symbols.
 SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
-  if (key.sym >= SDLK_a && key.sym <= SDLK_z) return static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key.sym - SDLK_a));
-  switch (key.sym) {
-    case SDLK_COMMA:
-      return SDL_SCANCODE_COMMA;
-    case SDLK_PERIOD:
-      return SDL_SCANCODE_PERIOD;
-    case SDLK_MINUS:
-      return SDL_SCANCODE_MINUS;
-    case SDLK_EQUALS:
-      return SDL_SCANCODE_EQUALS;
-    case SDLK_LEFTBRACKET:
-      return SDL_SCANCODE_LEFTBRACKET;
-    case SDLK_RIGHTBRACKET:
-      return SDL_SCANCODE_RIGHTBRACKET;
-    default:
-      return key.scancode;
-  }
+  const bool letter = key.sym >= SDLK_a && key.sym <= SDLK_z;
+  return letter ? static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key.sym - SDLK_a)) : key.scancode;
 }
 
 }  // namespace
 
-std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key) noexcept {
-  if ((key.mod & KMOD_SHIFT) != 0) {
-    if (const auto code = codeOf(kShifted, key.sym)) return code;
+std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key, std::string_view typed) noexcept {
+  const bool on_keypad = (key.sym & SDLK_SCANCODE_MASK) != 0;
+  const int sign = on_keypad ? 0 : typed.size() == 1 ? typed.front() : key.sym;
+  for (const SignPair& pair : kSigns) {
+    if (pair.sign == sign) return pair.code;
   }
-  if (const auto code = codeOf(kSigns, key.sym)) return code;
+  const bool shifted_digit = sign >= '1' && sign <= '8' && (key.mod & KMOD_SHIFT) != 0;
+  if (shifted_digit) return static_cast<std::uint16_t>(KEY_NUMERIC_1 + (sign - '1'));
   return codeOf(positionInUsa(key));
 }
 

@@ -11,6 +11,7 @@
 
 #include "drivers/egl/egl.h"
 #include "drivers/window/window_input.h"
+#include "hal/key_names.h"
 #include "tests/golden/window_display.h"
 #include "tests/support/machine/x_screen.h"
 
@@ -63,6 +64,46 @@ TEST_F(WindowDisplay, SignsArriveAsWhatIsPrinted) {
     screen_->key("Shift_L", false);
     EXPECT_EQ(nextKey().code, KEY_LEFTSHIFT);
   }
+}
+
+// With AltGr and Shift, where a German and a French keyboard have them; as in other players, what is typed counts.
+TEST_F(WindowDisplay, SignsAreThoseThatTheLayoutMakes) {
+  constexpr auto kNone = static_cast<int>(KEY_RESERVED);
+  const struct {
+    const char *layout, *held, *symbol;
+    int held_code, code;
+  } keys[] = {{"de", "ISO_Level3_Shift", "q", KEY_RIGHTALT, KEY_2 | kWithShift},  // @
+              {"de", "ISO_Level3_Shift", "8", KEY_RIGHTALT, KEY_LEFTBRACE},
+              {"de", "ISO_Level3_Shift", "9", KEY_RIGHTALT, KEY_RIGHTBRACE},
+              {"de", "Shift_L", "ssharp", KEY_LEFTSHIFT, KEY_QUESTION},
+              {"de", "Shift_L", "less", KEY_LEFTSHIFT, KEY_NEXT},
+              {"de", "Shift_L", "2", KEY_LEFTSHIFT, KEY_APOSTROPHE | kWithShift},  // "
+              {"de", "Shift_L", "7", KEY_LEFTSHIFT, KEY_SLASH},
+              {"de", "Control_L", "plus", KEY_LEFTCTRL, KEY_KPPLUS},
+              {"de", nullptr, "less", kNone, KEY_PREVIOUS},
+              {"de", nullptr, "KP_Divide", kNone, KEY_KPSLASH},
+              {"de", nullptr, "z", kNone, KEY_Z},
+              {"fr", "Shift_L", "ampersand", KEY_LEFTSHIFT, KEY_NUMERIC_1},
+              {"fr", nullptr, "ampersand", kNone, KEY_1},
+              {"fr", nullptr, "a", kNone, KEY_A},
+              {"ru", nullptr, "Cyrillic_ef", kNone, KEY_A}};
+  screen_->focus(window_);
+  for (const auto& [layout, held, symbol, held_code, code] : keys) {
+    if (!screen_->setLayout(layout)) GTEST_SKIP() << "setxkbmap is missing (Debian: x11-xkb-utils)";
+    if (held != nullptr) {
+      screen_->key(held, true);
+      EXPECT_EQ(nextKey().code, held_code) << layout << held;
+    }
+    screen_->key(symbol, true);
+    EXPECT_EQ(nextKey().code, code) << layout << " " << symbol;
+    if (held != nullptr) {
+      screen_->key(held, false);
+      EXPECT_EQ(nextKey().code, held_code) << layout << held;
+    }
+    screen_->key(symbol, false);
+    EXPECT_EQ(nextKey().code, code) << layout << " " << symbol << ", let go after the other";
+  }
+  EXPECT_TRUE(screen_->setLayout("us"));
 }
 
 TEST_F(WindowDisplay, AHeldKeyRepeatsUntilItIsLetGo) {

@@ -253,6 +253,15 @@ void XScreen::key(const char* name, bool down) const {
   XSync(connection_, False);
 }
 
+bool XScreen::setLayout(const std::string& name) const {
+  const std::string command = std::string("setxkbmap -display ") + XDisplayString(connection_) + " " + name;
+  const bool set = std::system(command.c_str()) == 0;
+  XSync(connection_, False);
+  for (XEvent event; XCheckTypedEvent(connection_, MappingNotify, &event) != 0;)
+    XRefreshKeyboardMapping(&event.xmapping);
+  return set;
+}
+
 void XScreen::moveMouse(int x, int y) const {
   XTestFakeMotionEvent(connection_, 0, x, y, CurrentTime);
   XSync(connection_, False);

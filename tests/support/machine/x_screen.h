@@ -68,6 +68,8 @@ class XScreen {
     tap(name);
     key(held, false);
   }
+  // The keyboard's layout, "de"; keys are found by their symbols in it. False without setxkbmap.
+  [[nodiscard]] bool setLayout(const std::string& name) const;
   void moveMouse(int x, int y) const;
   // 1 left, 2 middle, 3 right; 4 and 5 are a notch of the wheel, forward and back.
   void button(unsigned number, bool down) const;
