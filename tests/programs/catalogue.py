@@ -3,7 +3,7 @@
 """Runs the lines of toolchain/catalogue.md as they stand there, with GNU parallel and with a Slurm of this machine alone.
 
 Of twenty films one job is killed, and Slurm's daemon of the machine is started again meanwhile. Submitted once more, every film is
-whole, and none was made twice. catalogue.py BIN; ends with 77 where GNU parallel or Slurm is missing."""
+whole, and none was made twice. A film made in segments has one code for one distance before and after the join. catalogue.py BIN; ends with 77 where GNU parallel or Slurm is missing."""
 import argparse
 import contextlib
 import os
@@ -111,6 +111,26 @@ def by_parallel(programs, folder):
     films.expect_whole(before, f"parallel, {killed} killed")
 
 
+def by_segments(programs, folder):
+    """The left half stays at 1 m while the right half grows from .4 m deep to 1.9 m where the second segment begins."""
+    make = seeds.Maker(folder, programs)
+    depth = f"nullsrc=size={seeds.COLS}x{seeds.ROWS}:rate=5,format=gray16le,geq=lum='if(lt(X,W/2),1000,800+Y*(8+32*gte(T,10)))'"
+    for track, graph, coding in (("color.mp4", "testsrc2=rate=5", ["-g", "5"]), ("depth.mkv", depth, ["-c:v", "ffv1", "-g", "5"])):
+        make.ffmpeg("-f", "lavfi", "-i", graph, "-s", f"{seeds.COLS}x{seeds.ROWS}", "-frames:v", str(PICTURES), *coding,
+                    make.path(f"film-{track}"))
+    (block,) = blocks_below("One job per segment")
+    environment = {**os.environ, "PATH": programs + ":" + os.environ["PATH"]}
+    said = subprocess.run(["bash", "-ec", block], cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
+    gray = ["ffmpeg", "-v", "error", "-i", make.path("film.mkv"), "-map", "0:v:1", "-f", "rawvideo", "-pix_fmt", "gray", "-"]
+    codes = subprocess.run(gray, stdin=subprocess.DEVNULL, capture_output=True).stdout
+    picture, place = seeds.COLS * seeds.ROWS, seeds.ROWS // 2 * seeds.COLS + seeds.COLS // 4
+    seen = list(codes[place::picture])
+    if said.returncode != 0 or len(seen) != PICTURES or max(seen) - min(seen) > 1:
+        raise SystemExit(f"catalogue: the codes of one distance, in segments: {seen}; {said.stdout[-2000:]}")
+    print(f"in two segments: one distance has the codes {sorted(set(seen))}", flush=True)
+
+
 class Slurm:
     """A cluster of this machine alone, with files and sockets in a folder."""
 
@@ -211,6 +231,7 @@ def main():
         print("Slurm's daemons are started as root here; use sudo")
         return 77
     with tempfile.TemporaryDirectory(prefix="relievo-catalogue-") as folder:
+        by_segments(programs, os.path.join(folder, "segments"))
         by_parallel(programs, os.path.join(folder, "parallel"))
         by_slurm(programs, folder)
     return 0
