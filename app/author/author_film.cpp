@@ -109,9 +109,16 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   };
   if (auto opened = supply.open(source, backends, output, stop, progress); !opened) return failed(opened.error());
   std::optional<Packager> packager;
-  bool live = false;  // ends on request or when its camera is unplugged, and is complete then
+  bool live = false;  // ends on request, when its camera is unplugged or its pictures change, and is complete then
   bool whole = true;
   std::optional<CancelsAnswers> kept;
+  const auto endsThere = [&](const Error& error) {
+    const bool changes = error.code == ErrorCode::Unsupported;
+    if (!live || (!changes && !reader.isSourceLost(error))) return false;
+    log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there",
+        changes ? "its pictures change their size or format" : error.message);
+    return true;
+  };
   for (std::uint64_t done = 1;; ++done) {
     auto pair = supply.next();
     if (stop.load(std::memory_order_relaxed)) {
@@ -121,10 +128,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
       whole = false;
       break;
     }
-    if (!pair && live && reader.isSourceLost(pair.error().error)) {
-      log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there", pair.error().error.message);
-      break;
-    }
+    if (!pair && endsThere(pair.error().error)) break;
     if (!pair) return failed(pair.error());
     if (!*pair) break;
     live = (*pair)->taken.has_value();
@@ -133,7 +137,9 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
       packager.emplace(reader, backends, supply.infoWith(**pair), source, output);
       if (auto begun = packager->begin(**pair); !begun) return failed(begun.error());
     }
-    if (auto written = packager->write(**pair); !written) return failed(written.error());
+    auto written = packager->write(**pair);
+    if (!written && done > 1 && endsThere(written.error().error)) break;
+    if (!written) return failed(written.error());
     progress(done, expectedFrames(reader.info()));
   }
   if (!packager) return failOn(source.url, {ErrorCode::Corrupt, 0, "holds no pictures"});

@@ -5,8 +5,10 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "app/author/author.h"
@@ -153,6 +155,39 @@ TEST_F(AuthorFilm, LeavesNothingWhenItIsInterrupted) {
   EXPECT_EQ(summary.error().error.code, ErrorCode::Cancelled);
   EXPECT_EQ(reached, 5u);
   EXPECT_TRUE(made().empty());
+}
+
+// A file that is read as a camera is: without a length, and each picture with a time of arrival.
+class LiveFile final : public MediaSource {
+  Result<Description> openSource(const std::string& url) override {
+    if (auto opened = file_->open(url); !opened) return std::unexpected(opened.error());
+    return Description{.streams = file_->streams(), .origin = {.remote = true}};
+  }
+  Result<std::optional<Packet>> readPacket() override { return file_->read(); }
+  Result<void> seekTo(MediaTime target) override { return file_->seek(target); }
+  void closeSource() noexcept override { file_->close(); }
+  void interrupted() noexcept override { file_->interrupt(); }
+
+  std::unique_ptr<MediaSource> file_ = makeFfmpegSource();
+};
+
+TEST_F(AuthorFilm, OfACameraEndsWhereThePicturesChangeTheirSize) {
+  std::string both;
+  for (const int width : {64, 96}) {
+    ClipTrack track = depthTrack("yuv420p", [](int c, int r, int) { return static_cast<unsigned>(c + r); }, width);
+    track.codec = "libx264";
+    makeClip(folder_ / "part.ts", {track});
+    both += textOf(folder_ / "part.ts");
+  }
+  std::ofstream(folder_ / "film.ts") << both;
+  const PairReader::Backends live{[](const std::string&) { return std::make_unique<LiveFile>(); },
+                                  kBackends.make_decoder};
+  const SourceOptions source{.url = folder_ / "film.ts", .packing = Packing::DepthAlone};
+  const auto summary = authorFilm(source, live, {.path = folder_ / "out.mkv"}, stop_, kNoReport);
+  ASSERT_TRUE(summary.has_value()) << summary.error().thing << summary.error().error.message;
+  EXPECT_EQ(summary->totals.color.frames, 30u);
+  EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u);
+  EXPECT_FALSE(authorFilm(source, kBackends, {.path = folder_ / "file.mkv"}, stop_, kNoReport)) << "a file is cut";
 }
 
 TEST_F(AuthorFilm, SentOverTheNetworkItsSoundEndsWithThePicturesWhenItIsInterrupted) {
