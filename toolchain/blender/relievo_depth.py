@@ -76,8 +76,6 @@ def main():
     folder, mm_per_unit = arguments()
     os.makedirs(folder, exist_ok=True)
     scene = bpy.context.scene
-    camera = scene.camera.data
-    near, far = camera.clip_start * mm_per_unit, min(camera.clip_end * mm_per_unit, LARGEST_CODE)
     set_up(scene, folder, mm_per_unit)
     # Frame by frame, because rendering an animation would also write the scene's own output.
     for number, frame in enumerate(range(scene.frame_start, scene.frame_end + 1, scene.frame_step), 1):
@@ -87,7 +85,7 @@ def main():
             os.replace(f"{folder}/rendered-{name}-{frame:04d}.png", f"{folder}/{name}-{number:04d}.png")
     rate = scene.render.fps / scene.render.fps_base / scene.frame_step
     print(f"relievo-author --color {folder}/color-%04d.png --depth {folder}/depth-%04d.png --fps {rate:g} "
-          f"--calibration unit=1,invalid=0,near={near:g},far={far:g} -o film.mkv")
+          f"--calibration unit=1,invalid=0 -o film.mkv")
 
 
 main()
