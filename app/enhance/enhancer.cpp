@@ -19,8 +19,9 @@ namespace {
 
 constexpr std::size_t kNeighbours = 2;  // pictures before and after it
 constexpr float kAfterMedian = 0.3F;    // share of the noise that the median of 25 leaves
-constexpr float kSmoothing = 5;         // reach of the fit, for a mesh
-constexpr int kReferenceCols = 720;     // reaches apply to a picture of this width
+constexpr float kBound = static_cast<float>(DepthEnhancer::kBoundLevels) * DepthMap::kLevel;
+constexpr float kSmoothing = 5;      // reach of the fit, for a mesh
+constexpr int kReferenceCols = 720;  // reaches apply to a picture of this width
 
 int scaled(float reach, int cols) {
   return static_cast<int>(std::lround(reach * static_cast<float>(cols) / kReferenceCols));
@@ -51,11 +52,10 @@ const char* name(Enhancement how) noexcept {
   return "";
 }
 
-DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels)
+DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source)
     : how_(how),
       source_(source),
       outcome_(recoded(source, DepthMap::kBits)),
-      bound_(static_cast<float>(bound_levels) * DepthMap::kLevel),
       code_step_(static_cast<float>(static_cast<double>(DepthMap::kHighest) / (source.highCode() - source.lowCode()))) {
 }
 
@@ -152,7 +152,7 @@ float DepthEnhancer::grain(const Picture& picture) const {
 void DepthEnhancer::model(Picture& picture, DepthMap& map) const {
   const int reach = reachFor(4, grain(picture), map.cols);
   fitLines(map, reach);
-  picture.bound = bound_ + std::max(0.5F * code_step_, 4 * noiseAfterFit(picture.noise, reach));
+  picture.bound = kBound + std::max(0.5F * code_step_, 4 * noiseAfterFit(picture.noise, reach));
   const DepthMesh mesh = meshOf(map, picture.bound);
   picture.points = mesh.points.size();
   renderMesh(mesh, map);

@@ -46,7 +46,7 @@ class DepthEnhancer {
   // codes: half a step of the source's, or four times the remaining noise if that is more.
   static constexpr double kBoundLevels = 0.25;
 
-  DepthEnhancer(Enhancement how, const DepthCalibration& source, double bound_levels = kBoundLevels);
+  DepthEnhancer(Enhancement how, const DepthCalibration& source);
 
   // The calibration of the output: 16 bits, since smoothing produces codes between those of the source.
   [[nodiscard]] const DepthCalibration& outcome() const noexcept { return outcome_; }
@@ -85,7 +85,7 @@ class DepthEnhancer {
 
   Enhancement how_;
   DepthCalibration source_, outcome_;
-  float bound_, code_step_;
+  float code_step_;
   int width_ = 0, height_ = 0;
   std::deque<Picture> pictures_;  // finished ones still needed as neighbours, then cleaned ones
   std::size_t done_ = 0;
