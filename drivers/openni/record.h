@@ -14,8 +14,6 @@ namespace relievo::openni {
 
 enum class Op : std::uint32_t {
   NodeAddedOldest = 2,  // version 1.0.0.4
-  IntProperty = 3,
-  GeneralProperty = 6,
   Picture = 10,
   End = 11,
   NodeAddedOld = 12,  // version 1.0.0.5
