@@ -16,8 +16,6 @@
 namespace relievo {
 namespace {
 
-constexpr double kEdgeMm = 3.0;
-constexpr double kRoundingMm = 1e-6;
 constexpr int kWideBlock = 64;  // wide enough to tell whether its rows are read whole
 
 // For normally distributed noise the median of the magnitude is 0.6745 standard deviations.

@@ -11,7 +11,6 @@ namespace {
 
 constexpr int kLines = 32, kMostSamples = 1024;
 constexpr int kSoon = 12;  // samples: a codec's block of 8, and half of the next one
-constexpr double kEdgeMm = 3.0, kRoundingMm = 1e-6;
 
 struct Steps {
   std::uint64_t all = 0, ripples = 0;
