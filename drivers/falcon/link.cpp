@@ -78,20 +78,22 @@ Result<void> sendEchoed(UsbPort& port, UsbBytes bytes, const Patience& patience)
   return {};
 }
 
-}  // namespace
-
-UsbBytes payloadOf(const UsbPacket& packet) RELIEVO_RT {
-  if (packet.bytes <= kStatusBytes || (packet.data[1] & kLineErrors) != 0) return {};
-  return packet.view().subspan(kStatusBytes);
-}
-
+// Slow line, for the boot loader: 9600 baud, 8N1, DTR raised, latency timer 16 ms (with 1 ms its checks fail).
 Result<void> setBootMode(UsbPort& port) {
   return ask(port, {kEmptyIncoming, kEmptyOutgoing, kLatency16Ms, k9600Baud, k8N1, kNoFlowControl, kRtsLow, kDtrLow,
                     kDtrHigh});
 }
 
+// Fast line, for the firmware: 1.5 MBd, latency timer 1 ms, both directions emptied.
 Result<void> setRunMode(UsbPort& port) {
   return ask(port, {kLatency1Ms, k1500KiloBaud, kEmptyIncoming, kEmptyOutgoing});
+}
+
+}  // namespace
+
+UsbBytes payloadOf(const UsbPacket& packet) RELIEVO_RT {
+  if (packet.bytes <= kStatusBytes || (packet.data[1] & kLineErrors) != 0) return {};
+  return packet.view().subspan(kStatusBytes);
 }
 
 Result<bool> firmwareAnswers(UsbPort& port, const Patience& patience) {

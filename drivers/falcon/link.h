@@ -21,11 +21,6 @@ inline constexpr std::size_t kMostPayload = kUsbPacketBytes - kStatusBytes;
 // A packet's payload; empty if there is none, or if the packet reports errors.
 [[nodiscard]] UsbBytes payloadOf(const UsbPacket& packet) RELIEVO_RT;
 
-// Slow line, for the boot loader: 9600 baud, 8N1, DTR raised, latency timer 16 ms (with 1 ms its checks fail).
-[[nodiscard]] Result<void> setBootMode(UsbPort& port);
-// Fast line, for the firmware: 1.5 MBd, latency timer 1 ms, both directions emptied.
-[[nodiscard]] Result<void> setRunMode(UsbPort& port);
-
 // For the two functions below: the clock they wait by, and the flag that cancels them within 100 ms.
 struct Patience {
   Clock& clock;

@@ -30,30 +30,7 @@ const char* codecOf(Coding coding) noexcept {
   return "";
 }
 
-}  // namespace
-
-std::optional<PictureSize> jpegSize(std::span<const std::uint8_t> jpeg) noexcept {
-  constexpr std::uint8_t kHuffman = 0xc4, kExtension = 0xc8,
-                         kArithmetic = 0xcc;  // the markers c0 to cf that are no SOF
-  constexpr std::size_t kSizeEnd = 9;
-  if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8) return std::nullopt;
-  std::size_t at = 2;
-  while (at + kSizeEnd <= jpeg.size() && jpeg[at] == 0xff) {
-    const std::uint8_t marker = jpeg[at + 1];
-    const auto pair = [&](std::size_t i) { return std::uint32_t{jpeg[at + i]} << 8 | jpeg[at + i + 1]; };
-    const bool frame = (marker & 0xf0) == 0xc0 && marker != kHuffman && marker != kExtension && marker != kArithmetic;
-    if (frame) return PictureSize{pair(7), pair(5)};
-    at += 2 + pair(2);
-  }
-  return std::nullopt;
-}
-
-std::optional<std::vector<std::uint8_t>> readPlace(const AnsweredFile& file, const Place& place) {
-  std::vector<std::uint8_t> bytes(std::min(place.bytes, kMostPicture));
-  if (bytes.empty() || file.read(place.begin, bytes).value_or(0) != bytes.size()) return std::nullopt;
-  return bytes;
-}
-
+// A TIFF 6.0 file of 16-bit gray in one strip of zlib's format (compression 8).
 std::vector<std::uint8_t> tiffAround(std::span<const std::uint8_t> deflated, PictureSize size) {
   constexpr std::uint32_t kShort = 3, kLong = 4;
   constexpr int kEntries = 9;
@@ -84,6 +61,30 @@ std::vector<std::uint8_t> tiffAround(std::span<const std::uint8_t> deflated, Pic
   put(tiff, 0, 4);
   std::ranges::copy(deflated, std::back_inserter(tiff));
   return tiff;
+}
+
+}  // namespace
+
+std::optional<PictureSize> jpegSize(std::span<const std::uint8_t> jpeg) noexcept {
+  constexpr std::uint8_t kHuffman = 0xc4, kExtension = 0xc8,
+                         kArithmetic = 0xcc;  // the markers c0 to cf that are no SOF
+  constexpr std::size_t kSizeEnd = 9;
+  if (jpeg.size() < 4 || jpeg[0] != 0xff || jpeg[1] != 0xd8) return std::nullopt;
+  std::size_t at = 2;
+  while (at + kSizeEnd <= jpeg.size() && jpeg[at] == 0xff) {
+    const std::uint8_t marker = jpeg[at + 1];
+    const auto pair = [&](std::size_t i) { return std::uint32_t{jpeg[at + i]} << 8 | jpeg[at + i + 1]; };
+    const bool frame = (marker & 0xf0) == 0xc0 && marker != kHuffman && marker != kExtension && marker != kArithmetic;
+    if (frame) return PictureSize{pair(7), pair(5)};
+    at += 2 + pair(2);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<std::uint8_t>> readPlace(const AnsweredFile& file, const Place& place) {
+  std::vector<std::uint8_t> bytes(std::min(place.bytes, kMostPicture));
+  if (bytes.empty() || file.read(place.begin, bytes).value_or(0) != bytes.size()) return std::nullopt;
+  return bytes;
 }
 
 void describePictures(const Scan& scan, bool depth, StreamInfo& stream) {

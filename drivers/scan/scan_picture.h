@@ -21,9 +21,6 @@ struct PictureSize {
 // Nullopt unless all of it is there.
 [[nodiscard]] std::optional<std::vector<std::uint8_t>> readPlace(const AnsweredFile& file, const Place& place);
 
-// A TIFF 6.0 file of 16-bit gray in one strip of zlib's format (compression 8).
-[[nodiscard]] std::vector<std::uint8_t> tiffAround(std::span<const std::uint8_t> deflated, PictureSize size);
-
 // The codec, size and tags of the scan's depth, or colour.
 void describePictures(const Scan& scan, bool depth, StreamInfo& stream);
 // Nullopt for a raw picture of another size.

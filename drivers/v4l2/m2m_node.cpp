@@ -151,12 +151,13 @@ Result<void> setPacketFormat(const M2mNode& node, int fd, const StreamInfo& stre
   return {};
 }
 
-}  // namespace
-
+// The fourcc of a codec's packets; nullopt for an unsupported codec.
 std::optional<std::uint32_t> packetFormatOf(const std::string& codec) noexcept {
   const auto found = std::find_if(kCodings.begin(), kCodings.end(), [&](const Coding& c) { return codec == c.codec; });
   return found == kCodings.end() ? std::nullopt : std::optional(found->fourcc);
 }
+
+}  // namespace
 
 Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile) {
   const auto fourcc = packetFormatOf(stream.codec);

@@ -18,9 +18,6 @@
 
 namespace relievo::v4l2 {
 
-// The fourcc of a codec's packets; nullopt for an unsupported codec.
-[[nodiscard]] std::optional<std::uint32_t> packetFormatOf(const std::string& codec) noexcept;
-
 struct M2mNode : V4l2M2mNode {
   bool planes = false;  // it has the multi-planar interface
 

@@ -18,6 +18,17 @@ namespace {
 using Tags = std::map<std::string, std::string>;
 constexpr const char* kPackingTag = "DEPTH_PACKING";
 
+// True for a track that is neither colour nor depth but the surface's material: it has the tag kMaterialScaleTag, or it
+// is called "material" and the container has the tag.
+bool isMaterial(const StreamInfo& track, const Tags& container_tags) {
+  if (track.tags.contains(kMaterialScaleTag)) return true;
+  if (!container_tags.contains(kMaterialScaleTag)) return false;
+  return std::ranges::any_of(track.tags, [](const auto& tag) {
+    const auto& [key, value] = tag;
+    return (key == "TITLE" || key == "NAME" || key == "HANDLER_NAME") && lowerCase(value) == "material";
+  });
+}
+
 std::vector<const StreamInfo*> videoTracks(const MediaSource& source) {
   std::vector<const StreamInfo*> tracks;
   for (const StreamInfo& stream : source.streams()) {
@@ -208,15 +219,6 @@ const char* name(Packing packing) noexcept {
       return "stereo-layers";
   }
   return "";
-}
-
-bool isMaterial(const StreamInfo& track, const Tags& container_tags) {
-  if (track.tags.contains(kMaterialScaleTag)) return true;
-  if (!container_tags.contains(kMaterialScaleTag)) return false;
-  return std::ranges::any_of(track.tags, [](const auto& tag) {
-    const auto& [key, value] = tag;
-    return (key == "TITLE" || key == "NAME" || key == "HANDLER_NAME") && lowerCase(value) == "material";
-  });
 }
 
 Result<TrackPlan> planTracks(const MediaSource& source, Packing packing, bool depth_elsewhere) {

@@ -53,10 +53,6 @@ struct TrackPlan {
 // Whether the track itself says that it is depth: signalled as auxiliary, DEPTH_ tags, or its name.
 [[nodiscard]] bool isMarkedAsDepth(const StreamInfo& track);
 
-// True for a track that is neither colour nor depth but the surface's material: it has the tag kMaterialScaleTag, or it
-// is called "material" and the container has the tag.
-[[nodiscard]] bool isMaterial(const StreamInfo& track, const std::map<std::string, std::string>& container_tags);
-
 // The depth track of a source. Of two or more video tracks: the one signalled as auxiliary; else the one that has
 // DEPTH_ tags or whose TITLE, NAME or HANDLER_NAME mentions depth, disparity or an auxiliary picture; else the only
 // one of gray; else the second.
