@@ -16,6 +16,7 @@ constexpr int kMostPasses = 4;
 // 128 samples half a pitch apart: 28 mm, as for a finger at 5 m/s after a gap of 5 ms.
 constexpr int kMostSamples = 128;
 constexpr int kBisections = 6;
+constexpr double kRiseMmPerS = 100.0;  // rate at which a lowered surface rises back: 50 N/s at 0.5 N/mm
 constexpr Duration kLongestStep = std::chrono::milliseconds(10);
 
 bool isFinite(const glm::dvec3& p) RELIEVO_RT {
@@ -275,7 +276,7 @@ bool RelievoMethod::enterOnPath(const glm::dvec3& from_mm, const glm::dvec3& hip
 
 void RelievoMethod::settleLowering(const glm::dvec3& hip_mm) RELIEVO_RT {
   if (state_ == State::Contact) {
-    const double rise = config_.rise_mm_per_s * config_.tick_s;
+    const double rise = kRiseMmPerS * config_.tick_s;
     const double after = glm::length(force_n_) + material_.found().stiffness_n_per_mm * rise;
     if (after <= force_before_cut_n_) lowered_mm_ = std::max(lowered_mm_ - rise, 0.0);
   } else if (state_ == State::Free) {

@@ -33,10 +33,9 @@ class RelievoMethod final : public TouchMethod {
     FeltScale scale;
     Friction friction;
     Texture texture;
-    HeldScale places;              // of the film's material track, if it has one
-    double jump_threshold_n = 0;   // additionally the paper's guard (IV-C); 0: off, re-seating does not need it
-    double rise_mm_per_s = 100.0;  // rate at which a lowered surface rises back: 50 N/s at 0.5 N/mm
-    double tick_s = 0.001;         // the task's period
+    HeldScale places;             // of the film's material track, if it has one
+    double jump_threshold_n = 0;  // additionally the paper's guard (IV-C); 0: off, re-seating does not need it
+    double tick_s = 0.001;        // the task's period
   };
   explicit RelievoMethod(const Config& config) noexcept
       : config_(config),
