@@ -10,8 +10,8 @@
 
 #include "app/depth_window/flicker.h"
 #include "app/depth_window/lattice.h"
-#include "app/depth_window/quantile.h"
 #include "app/depth_window/ripples.h"
+#include "platform/quantile.h"
 
 namespace relievo {
 namespace {

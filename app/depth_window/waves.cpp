@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/depth_window/felt_scale.h"
-#include "app/depth_window/quantile.h"
+#include "platform/quantile.h"
 
 namespace relievo {
 namespace {

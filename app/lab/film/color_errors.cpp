@@ -9,6 +9,7 @@
 #include "app/lab/truth/true_surface.h"
 #include "app/media/reading/picture_look.h"
 #include "app/scene/color_curve.h"
+#include "platform/quantile.h"
 
 namespace relievo {
 namespace {
@@ -44,8 +45,7 @@ bool isAtStep(const HeightField& truth, int c, int r) {
   return false;
 }
 
-}  // namespace
-
+// Gray of 16 bits: the place on the curve of `meaning.code`, by RGB and the chroma sample that covers it.
 Frame naivelyRead(const Frame& coded, const DepthCalibration& meaning) {
   const std::vector<PictureColor> entries = entriesOf(meaning.code);
   auto codes = std::make_shared<std::vector<std::uint16_t>>();
@@ -62,6 +62,8 @@ Frame naivelyRead(const Frame& coded, const DepthCalibration& meaning) {
   }
   return grayFrame(std::move(codes), coded.width, coded.height);
 }
+
+}  // namespace
 
 void ColorErrors::add(const Frame& coded, const DepthCalibration& meaning, const HeightField& own,
                       const HeightField& truth) {
@@ -88,10 +90,7 @@ void ColorErrors::add(const Frame& coded, const DepthCalibration& meaning, const
 double ColorErrors::p99(Reading reading, bool edges) const {
   const Errors& of = errors_[static_cast<std::size_t>(reading)];
   std::vector<float> errors = edges ? of.edges : of.all;
-  if (errors.empty()) return 0;
-  const auto nth = errors.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(errors.size() - 1));
-  std::nth_element(errors.begin(), nth, errors.end());
-  return static_cast<double>(*nth);
+  return static_cast<double>(quantile(errors, 0.99));
 }
 
 Outcome<void> writeColorErrors(const std::vector<ColorErrorsRow>& rows, const std::string& folder) {

@@ -13,9 +13,6 @@
 
 namespace relievo {
 
-// Gray of 16 bits: the place on the curve of `meaning.code`, by RGB and the chroma sample that covers it.
-[[nodiscard]] Frame naivelyRead(const Frame& coded, const DepthCalibration& meaning);
-
 // Accumulates over pictures. All heights are of volumes 40 mm deep; errors are shares of that.
 class ColorErrors {
  public:

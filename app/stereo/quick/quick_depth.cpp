@@ -8,6 +8,7 @@
 #include "app/stereo/hole_filling.h"
 #include "app/stereo/quick/outline_snapping.h"
 #include "app/stereo/quick/row_shift.h"
+#include "platform/quantile.h"
 
 namespace relievo {
 namespace {
@@ -27,13 +28,6 @@ constexpr float kHighest = 65535;
 constexpr double kBlackSpread = 3;  // levels
 constexpr int kLookEvery = 4;       // pictures: something may have come nearer than all before
 constexpr int kVotes = 6;           // pictures of a shot that are examined for the eyes' order
-
-// The disparity below which a share of the seen pixels lies.
-float shareBelow(std::vector<float>& seen, double share) {
-  const auto place = seen.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(seen.size() - 1));
-  std::ranges::nth_element(seen, place);
-  return *place;
-}
 
 }  // namespace
 
@@ -101,9 +95,9 @@ std::optional<QuickDepth::Range> QuickDepth::reach() {
     if (found.seen[i] != 0) seen.push_back(found.pixels[i]);
   }
   if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return std::nullopt;
-  one_picture_ = shareBelow(seen, kMoved) >= -kSamePlace && shareBelow(seen, 1 - kMoved) <= kSamePlace;
+  one_picture_ = quantile(seen, kMoved) >= -kSamePlace && quantile(seen, 1 - kMoved) <= kSamePlace;
   if (one_picture_) return std::nullopt;
-  const float low = shareBelow(seen, kOutliers), high = shareBelow(seen, 1 - kOutliers);
+  const float low = quantile(seen, kOutliers), high = quantile(seen, 1 - kOutliers);
   const float spare = std::max(kLeastSpare, kSpare * (high - low)), width = static_cast<float>(cols);
   return Range{(low - spare) / width, (high + spare) / width};
 }
