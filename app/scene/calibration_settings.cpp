@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 
 #include "app/scene/depth_calibration.h"
+#include "platform/number_in.h"
 
 namespace relievo {
 namespace {
@@ -45,14 +45,6 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
-template <class T>
-std::optional<T> number(std::string_view text) {
-  T value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 // Sets one value; false if the key does not allow it.
 bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
   if (key == "law") {
@@ -65,7 +57,7 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
     if (value != "full" && value != "limited") return false;
     c.range = value == "full" ? ColorRange::Full : ColorRange::Limited;
   } else if (key == "bits") {
-    const auto bits = number<int>(value);
+    const auto bits = numberIn<int>(value);
     if (!bits || *bits < 8 || *bits > 16) return false;
     c.bits = *bits;
   } else if (key == "invalid") {
@@ -79,7 +71,7 @@ bool apply(DepthCalibration& c, std::string_view key, std::string_view value) {
   } else if (key == "unit" && value == "none") {
     c.unit_mm.reset();
   } else {
-    const auto mm = number<double>(value);
+    const auto mm = numberIn<double>(value);
     if (!mm || !(*mm >= kNearestMm && *mm <= kFarthestMm)) return false;
     if (key == "unit") {
       c.unit_mm = mm;

@@ -2,16 +2,15 @@
 #include "app/scene/code_set.h"
 
 #include <algorithm>
-#include <charconv>
+
+#include "platform/number_in.h"
 
 namespace relievo {
 namespace {
 
 std::optional<std::uint32_t> codeOf(std::string_view text) noexcept {
-  std::uint32_t code = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  return whole && code <= CodeSet::kHighestCode ? std::optional(code) : std::nullopt;
+  const auto code = numberIn<std::uint32_t>(text);
+  return code && *code <= CodeSet::kHighestCode ? code : std::nullopt;
 }
 
 }  // namespace

@@ -3,9 +3,10 @@
 #include "app/scene/material.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <numbers>
+
+#include "platform/number_in.h"
 
 namespace relievo {
 namespace {
@@ -23,10 +24,8 @@ constexpr const char* kBadTexture =
 
 // The number that is the whole text, if it lies in the range.
 std::optional<double> number(std::string_view text, double low, double high) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool good = error == std::errc() && end == text.data() + text.size() && value >= low && value <= high;
-  return good ? std::optional(value) : std::nullopt;
+  const auto value = numberIn<double>(text);
+  return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 
 std::optional<Friction> parseFriction(std::string_view text) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <optional>
 
 #include "hal/key_names.h"
+#include "platform/number_in.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -26,11 +26,9 @@ std::string_view nextWord(std::string_view& line) {
 }
 
 std::optional<Duration> parseTime(std::string_view word) {
-  double seconds = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
-  const bool whole = error == std::errc{} && end == word.data() + word.size();
-  if (!whole || !(seconds >= 0 && seconds <= kLongestScriptS)) return std::nullopt;
-  return fromSeconds(seconds);
+  const auto seconds = numberIn<double>(word);
+  if (!seconds || !(*seconds >= 0 && *seconds <= kLongestScriptS)) return std::nullopt;
+  return fromSeconds(*seconds);
 }
 
 // The rest of a line, without surrounding blanks.

@@ -4,34 +4,32 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "app/player/control/verb_table.h"
 #include "app/player/screen/stereo_word.h"
 #include "platform/near_words.h"
+#include "platform/number_in.h"
 
 namespace relievo {
 namespace {
 
 // The whole text, a finite number of at most a week in seconds.
-std::optional<double> numberIn(std::string_view text) {
+std::optional<double> quantityIn(std::string_view text) {
   constexpr double kMost = 7 * 24 * 3600.0;
   if (text.starts_with('+')) {
     text.remove_prefix(1);
     if (text.starts_with('-')) return std::nullopt;  // from_chars takes that one
   }
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(std::abs(value) <= kMost)) return std::nullopt;
-  return value;
+  const auto value = numberIn<double>(text);
+  return value && std::abs(*value) <= kMost ? value : std::nullopt;
 }
 
 std::optional<PlayerCommand> timeIn(std::string_view text) {
   const bool share = text.ends_with('%');
   if (share) text.remove_suffix(1);
-  const auto value = numberIn(text);
+  const auto value = quantityIn(text);
   if (!value) return std::nullopt;
   const bool relative = text.starts_with('+') || text.starts_with('-');
   if (!share) return PlayerCommand{relative ? PlayerVerb::SeekBy : PlayerVerb::SeekTo, *value};
@@ -45,13 +43,13 @@ std::optional<PlayerCommand> trackIn(const VerbEntry& entry, std::string_view te
   if (text.empty()) return PlayerCommand{entry.verb};
   if (text == "previous") return PlayerCommand{entry.verb, kPreviousTrack};
   if (text == "off" && entry.operand == Operand::TrackOrOff) return PlayerCommand{entry.verb, -1};
-  const auto number = numberIn(text);
+  const auto number = quantityIn(text);
   const bool good = number && *number >= 1 && *number <= kMostTracks && *number == std::floor(*number);
   return good ? std::optional(PlayerCommand{entry.verb, *number}) : std::nullopt;
 }
 
 std::optional<PlayerCommand> levelIn(std::string_view text) {
-  const auto value = numberIn(text);
+  const auto value = quantityIn(text);
   if (!value) return std::nullopt;
   const bool relative = text.starts_with('+') || text.starts_with('-');
   return PlayerCommand{relative ? PlayerVerb::VolumeBy : PlayerVerb::VolumeTo, *value};
@@ -61,7 +59,7 @@ std::optional<PlayerCommand> levelIn(std::string_view text) {
 std::optional<PlayerCommand> rowIn(std::string_view text) {
   constexpr double kMostRows = 1e6;
   if (text == "last") return PlayerCommand{PlayerVerb::SelectTo};
-  const auto value = numberIn(text);
+  const auto value = quantityIn(text);
   if (!value || *value != std::floor(*value) || std::abs(*value) > kMostRows) return std::nullopt;
   const bool relative = text.starts_with('+') || text.starts_with('-');
   if (!relative && *value < 1) return std::nullopt;
@@ -75,7 +73,7 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
     case Operand::Time:
       return timeIn(operand);
     case Operand::Step: {
-      const auto value = numberIn(operand);
+      const auto value = quantityIn(operand);
       return value ? std::optional(PlayerCommand{entry.verb, *value}) : std::nullopt;
     }
     case Operand::Level:

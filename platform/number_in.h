@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers in texts.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+namespace relievo {
+
+// The number that is the whole text, in every locale; nullopt if the text is anything else or has more.
+template <class T>
+[[nodiscard]] std::optional<T> numberIn(std::string_view text) noexcept {
+  T value{};
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace relievo
