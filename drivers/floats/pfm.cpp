@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cctype>
-#include <charconv>
 #include <cstring>
 #include <string_view>
 
 #include "drivers/floats/floats.h"
+#include "platform/number_in.h"
 
 namespace relievo {
 namespace {
@@ -28,21 +28,13 @@ std::string_view nextWord(std::string_view& text) noexcept {
   return word;
 }
 
-template <class T>
-std::optional<T> number(std::string_view word) noexcept {
-  T value{};
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
 std::optional<FilePicture> readPfm(std::span<const std::uint8_t> file) {
   const auto* const begin = reinterpret_cast<const char*>(file.data());
   std::string_view rest(begin, std::min(file.size(), kLongestHeader));
   const std::string_view magic = nextWord(rest);
   if (magic != "Pf" && magic != "PF") return std::nullopt;
-  const auto width = number<std::uint32_t>(nextWord(rest)), height = number<std::uint32_t>(nextWord(rest));
-  const auto scale = number<double>(nextWord(rest));  // its sign is the byte order
+  const auto width = numberIn<std::uint32_t>(nextWord(rest)), height = numberIn<std::uint32_t>(nextWord(rest));
+  const auto scale = numberIn<double>(nextWord(rest));  // its sign is the byte order
   if (!width || !height || !scale || *scale == 0 || !isSoundSize(*width, *height) || rest.empty()) return std::nullopt;
 
   FilePicture picture{.width = static_cast<int>(*width), .height = static_cast<int>(*height)};
