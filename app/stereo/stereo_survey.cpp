@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/stereo/block_matching.h"
+#include "hal/media/samples.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -90,13 +91,10 @@ const ShotPlan& StereoPlan::at(MediaTime time) const {
 }
 
 bool StereoSurvey::beginsShot(const Frame& left) {
-  const Component& k = left.components[left.model == ColorModel::Rgb ? 1 : 0];
-  const Plane& plane = left.planes[k.plane];
+  const Component& k = brightnessOf(left);
   const float scale = 255.0F / static_cast<float>((1U << k.bits) - 1);
-  return cuts_.begins(left.width, left.height, [&](int x, int y) {
-    const auto* const row = plane.data + y * plane.stride_bytes + k.offset_bytes;
-    return static_cast<float>(codeAt(k, row + std::ptrdiff_t{x} * k.step_bytes)) * scale;
-  });
+  return cuts_.begins(left.width, left.height,
+                      [&](int x, int y) { return static_cast<float>(codeAt(left, k, x, y)) * scale; });
 }
 
 Result<void> StereoSurvey::add(const Frame& left, const Frame& right) {

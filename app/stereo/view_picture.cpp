@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "hal/media/samples.h"
+
 namespace relievo {
 namespace {
 
@@ -28,12 +30,6 @@ class ByteScale {
   double low_ = 0, middle_ = 0, scale_ = 1, base_ = 0;
 };
 
-std::uint32_t codeOf(const Frame& f, std::size_t component, int c, int r) noexcept {
-  const Component& k = f.components[component];
-  const Plane& plane = f.planes[k.plane];
-  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
-}
-
 template <class Pixel>
 ViewPicture filled(const Frame& frame, Pixel&& pixel) {
   ViewPicture view(frame.width, frame.height);
@@ -48,8 +44,9 @@ ViewPicture fromRgb(const Frame& frame) {
   std::array<double, 3> to_byte{};
   for (std::size_t i = 0; i < 3; ++i) to_byte[i] = 255.0 / ((1U << frame.components[i].bits) - 1);
   return filled(frame, [&](int c, int r, std::uint8_t* out) {
-    const double red = codeOf(frame, 0, c, r) * to_byte[0], green = codeOf(frame, 1, c, r) * to_byte[1],
-                 blue = codeOf(frame, 2, c, r) * to_byte[2];
+    std::array<double, 3> color{};
+    for (std::size_t i = 0; i < 3; ++i) color[i] = codeAt(frame, frame.components[i], c, r) * to_byte[i];
+    const auto [red, green, blue] = color;
     const double luma = 0.299 * red + 0.587 * green + 0.114 * blue;
     out[0] = static_cast<std::uint8_t>(std::lround(luma));
     out[1] = static_cast<std::uint8_t>(std::clamp(128.5 + 0.564 * (blue - luma), 0.0, 255.0));
@@ -67,13 +64,14 @@ void lumaOf(const ViewPicture& view, std::vector<std::uint8_t>& luma) {
 ViewPicture readView(const Frame& frame) {
   if (frame.model == ColorModel::Rgb) return fromRgb(frame);
   const bool yuv = frame.model == ColorModel::Yuv;
-  const bool limited = frame.range == ColorRange::Limited || (yuv && frame.range == ColorRange::Unspecified);
+  const bool limited = isLimited(frame);
   const ByteScale luma(frame.components[0].bits, limited, false);
   const ByteScale chroma(yuv ? frame.components[1].bits : 8, limited, true);
   return filled(frame, [&](int c, int r, std::uint8_t* out) {
-    out[0] = luma(codeOf(frame, 0, c, r));
+    out[0] = luma(codeAt(frame, frame.components[0], c, r));
     for (std::size_t i = 1; i < 3; ++i) {
-      out[i] = yuv ? chroma(codeOf(frame, i, c >> frame.chroma_shift_x, r >> frame.chroma_shift_y)) : 128;
+      out[i] =
+          yuv ? chroma(codeAt(frame, frame.components[i], c >> frame.chroma_shift_x, r >> frame.chroma_shift_y)) : 128;
     }
   });
 }

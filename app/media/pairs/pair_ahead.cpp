@@ -7,6 +7,7 @@
 
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/picture_look.h"
+#include "hal/media/samples.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/print.h"
@@ -23,18 +24,16 @@ struct Beyond {
 Beyond beyondIn(const Frame& depth, const DepthCalibration& calibration) {
   constexpr int kAcross = 96, kDown = 64;
   constexpr double kOutliers = 0.002;
-  const Component& k = depth.components[depth.model == ColorModel::Rgb ? 1 : 0];
-  const Plane& plane = depth.planes[k.plane];
   const int across = std::min(kAcross, depth.width), down = std::min(kDown, depth.height);
   const double low = calibration.lowCode(), high = calibration.highCode();
   std::vector<std::uint32_t> codes;
   codes.reserve(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
   Beyond beyond;
   for (int j = 0; j < down; ++j) {
-    const std::ptrdiff_t r = (2 * j + 1) * depth.height / (2 * down);
+    const int r = (2 * j + 1) * depth.height / (2 * down);
     for (int i = 0; i < across; ++i) {
-      const std::ptrdiff_t c = (2 * i + 1) * depth.width / (2 * across);
-      const auto code = codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + c * k.step_bytes);
+      const int c = (2 * i + 1) * depth.width / (2 * across);
+      const auto code = codeAt(depth, brightnessOf(depth), c, r);
       if (calibration.invalid.contains(code)) continue;
       codes.push_back(code);
       if (code < low || code > high) ++beyond.outside;

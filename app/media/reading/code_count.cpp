@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "hal/media/samples.h"
+
 namespace relievo {
 namespace {
 
@@ -14,16 +16,14 @@ bool isGray16(const Frame& frame) noexcept {
 }
 
 std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
-  const Component& k = frame.components[0];
-  const Plane& plane = frame.planes[k.plane];
-  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+  return codeAt(frame, frame.components[0], c, r);
 }
 
 }  // namespace
 
 CodeCount::CodeCount(const Frame& depth) : bits_(std::max<int>(8, depth.components[0].bits)) {
   of_code_.assign(std::size_t{1} << bits_, 0);
-  const Component& k = depth.components[depth.model == ColorModel::Rgb ? 1 : 0];
+  const Component& k = brightnessOf(depth);
   const Plane& plane = depth.planes[k.plane];
   for (int r = 0; r < depth.height; ++r) {
     const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes;

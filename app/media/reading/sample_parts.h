@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hal/media/frame.h"
+#include "hal/media/samples.h"
 
 namespace relievo {
 
@@ -15,9 +15,7 @@ inline bool isPackable(const Frame& frame) noexcept {
 }
 
 inline std::uint32_t partAt(const Frame& frame, std::size_t part, int c, int r) noexcept {
-  const Component& k = frame.components[part];
-  const Plane& plane = frame.planes[k.plane];
-  return codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+  return codeAt(frame, frame.components[part], c, r);
 }
 
 inline std::uint32_t numberAt(const Frame& frame, int c, int r) noexcept {
@@ -26,10 +24,7 @@ inline std::uint32_t numberAt(const Frame& frame, int c, int r) noexcept {
 
 // TartanAir: the bytes of a float in blue, green, red and alpha, the lowest first; metres.
 inline float floatAt(const Frame& frame, int c, int r) noexcept {
-  const Component& k = *frame.alpha;
-  const Plane& plane = frame.planes[k.plane];
-  const std::uint32_t top =
-      codeAt(k, plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes);
+  const std::uint32_t top = codeAt(frame, *frame.alpha, c, r);
   const std::uint32_t low = partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
   return std::bit_cast<float>(top << 24 | partAt(frame, 0, c, r) << 16 | low);
 }

@@ -10,6 +10,7 @@
 
 #include "app/render/gl/color_shader.h"
 #include "app/render/gl/dma_import.h"
+#include "hal/media/samples.h"
 
 namespace relievo {
 namespace {
@@ -23,11 +24,6 @@ glm::mat3 rgbFromComponents(const Frame& frame) noexcept {
   const float green = 1 - red - blue;
   return {glm::vec3(1), glm::vec3(0, -2 * blue * (1 - blue) / green, 2 * (1 - blue)),
           glm::vec3(2 * (1 - red), -2 * red * (1 - red) / green, 0)};
-}
-
-bool limited(const Frame& frame) noexcept {
-  if (frame.range != ColorRange::Unspecified) return frame.range == ColorRange::Limited;
-  return frame.model == ColorModel::Yuv;
 }
 
 }  // namespace
@@ -188,7 +184,7 @@ void ColorPicture::makeSeen(glm::ivec2 samples) {
 // Codes arrive as fractions of 255: rgb = sum of column x scale x (fraction - zero point).
 void ColorPicture::setColors(const Frame& frame) noexcept {
   const glm::mat3 columns = rgbFromComponents(frame);
-  const bool is_limited = limited(frame);
+  const bool is_limited = isLimited(frame);
   const int count = frame.model == ColorModel::Gray ? 1 : 3;
   colors_.to_rgb = glm::mat4x3(0);
   components_to_rgb_ = glm::mat3(0);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "hal/media/samples.h"
+
 namespace relievo {
 namespace {
 
@@ -87,8 +89,7 @@ std::uint8_t byteOf(float value) {
 void takeYuv(const Frame& frame, std::size_t component, ViewSize size, int lower, ViewPicture& into) {
   CellSums sums(frame, component, size, lower);
   const int bits = frame.components[component].bits;
-  const bool limited =
-      frame.range == ColorRange::Limited || (frame.model == ColorModel::Yuv && frame.range == ColorRange::Unspecified);
+  const bool limited = isLimited(frame);
   const bool chroma = component > 0;
   const float unit = static_cast<float>(1U << (bits - 8)) * static_cast<float>(sums.count());
   const float low = chroma ? 128 * unit : limited ? 16 * unit : 0;

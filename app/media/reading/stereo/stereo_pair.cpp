@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "hal/media/samples.h"
+
 namespace relievo {
 namespace {
 
@@ -20,10 +22,8 @@ constexpr int kLeastBlocks = 12;        // a picture with less texture cannot be
 using Reduced = std::vector<double>;
 
 double brightnessAt(const Frame& f, int c, int r) noexcept {
-  const Component& k = f.components[f.model == ColorModel::Rgb ? 1 : 0];
-  const Plane& plane = f.planes[k.plane];
-  const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes;
-  return static_cast<double>(codeAt(k, at)) / ((1u << k.bits) - 1);
+  const Component& k = brightnessOf(f);
+  return static_cast<double>(codeAt(f, k, c, r)) / ((1u << k.bits) - 1);
 }
 
 // Each value is the mean of up to 4 x 4 samples of its cell.
