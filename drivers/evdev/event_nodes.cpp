@@ -2,8 +2,10 @@
 // Reads the folder of the input devices.
 #include "drivers/evdev/event_nodes.h"
 
+#include <sys/file.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +44,10 @@ std::vector<EventNode> listEventNodes() {
   nodes.reserve(by_number.size());
   for (auto& [number, node] : by_number) nodes.push_back(std::move(node));
   return nodes;
+}
+
+bool takeNode(int fd) noexcept {
+  return ::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // without locks it is shared
 }
 
 bool mayHaveKey(const std::string& path, unsigned code) {

@@ -20,6 +20,9 @@ struct EventNode {
 // In ascending order of their numbers. Opens nothing. Any thread; not real-time.
 [[nodiscard]] std::vector<EventNode> listEventNodes();
 
+// Takes an open node for one finger until it is closed. False if another finger, or another relievo, has it.
+[[nodiscard]] bool takeNode(int fd) noexcept;
+
 // Whether the node's device may have a key, by what sysfs says of it; true where that cannot be read. Does not open the
 // node: to close one again takes the kernel many milliseconds.
 [[nodiscard]] bool mayHaveKey(const std::string& path, unsigned code);

@@ -24,6 +24,8 @@ constexpr const char* kNoPad =
     "no gamepad, joystick or wheel with force feedback was found; plug one in, or give its path: "
     "gamepad:/dev/input/eventN";
 
+constexpr const char* kTaken = "the gamepad is already a finger; plug in another one, or leave one --haptic out";
+
 struct Opened {
   UniqueFd fd;
   int error = 0;  // errno, if it is not open
@@ -65,6 +67,7 @@ class EvdevPadPort final : public PadPort {
   explicit EvdevPadPort(std::string path) : path_(std::move(path)) {}
 
   Result<PadFacts> open() override {
+    taken_ = false;
     auto facts = path_.empty() ? openFirst() : openPath();
     if (facts) listing_.put(fd_.get(), facts->forces.has(FF_AUTOCENTER));
     return facts;
@@ -114,6 +117,7 @@ class EvdevPadPort final : public PadPort {
     if (node.error != 0)
       return fail(ErrorCode::NotFound, "there is no such gamepad; ls /dev/input lists the devices", node.error);
     if (auto facts = take(node)) return std::move(*facts);
+    if (taken_) return fail(ErrorCode::NotFound, kTaken);
     return fail(ErrorCode::Unsupported, "this input device has no stick or no force feedback; choose another");
   }
 
@@ -124,14 +128,17 @@ class EvdevPadPort final : public PadPort {
       refused = refused || opened.error == EACCES;
       if (auto facts = take(opened)) return std::move(*facts);
     }
+    if (taken_) return fail(ErrorCode::NotFound, kTaken);
     if (refused) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
     return fail(ErrorCode::NotFound, kNoPad);
   }
 
-  // Keeps it open if it is a pad.
+  // Keeps it open if it is a pad that is free.
   std::optional<PadFacts> take(Opened& node) {
     auto facts = node.fd.valid() ? ask(node.fd.get()) : std::nullopt;
     if (!facts || !isPad(*facts)) return std::nullopt;
+    taken_ = !takeNode(node.fd.get());
+    if (taken_) return std::nullopt;
     fd_ = std::move(node.fd);
     return facts;
   }
@@ -146,6 +153,7 @@ class EvdevPadPort final : public PadPort {
   std::string path_;
   UniqueFd fd_;
   PadListing listing_;
+  bool taken_ = false;  // by another finger: a pad that `open` has found
 };
 
 std::string stateOf(const PadFacts& facts) {

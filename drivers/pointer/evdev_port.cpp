@@ -22,6 +22,8 @@ constexpr const char* kNoRight =
     "no permission to read the mouse; add the user to the group input (sudo usermod -aG input $USER) and log in "
     "again";
 
+constexpr const char* kTaken = "the mouse is already a finger; plug in another one, or leave one --haptic out";
+
 bool isMouse(int fd) {
   libevdev* device = nullptr;
   if (libevdev_new_from_fd(fd, &device) != 0) return false;
@@ -67,20 +69,25 @@ class EvdevPort final : public MousePort {
     if (!fd_.valid() && error == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, error);
     if (!fd_.valid())
       return fail(ErrorCode::NotFound, "there is no such mouse; ls /dev/input lists the devices", error);
-    if (isMouse(fd_.get())) return {};
+    const bool mouse = isMouse(fd_.get());
+    if (mouse && takeNode(fd_.get())) return {};
     fd_.reset();
+    if (mouse) return fail(ErrorCode::Unsupported, kTaken);
     return fail(ErrorCode::Unsupported,
                 "this input device is no mouse: it lacks relative axes or a left button; choose another");
   }
 
   Result<void> openFirst() {
-    bool refused = false;
+    bool refused = false, taken = false;
     for (const EventNode& node : listEventNodes()) {
       fd_ = openEvents(node.path);
       refused = refused || (!fd_.valid() && errno == EACCES);
-      if (fd_.valid() && isMouse(fd_.get())) return {};
+      if (!fd_.valid() || !isMouse(fd_.get())) continue;
+      if (takeNode(fd_.get())) return {};
+      taken = true;
     }
     fd_.reset();
+    if (taken) return fail(ErrorCode::NotFound, kTaken);
     if (refused) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
     return fail(ErrorCode::NotFound, "no mouse was found; plug one in, or give its path: pointer:/dev/input/eventN");
   }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <utility>
 
 #include "drivers/pointer/pointer.h"
 #include "platform/allocation_counter.h"
@@ -107,6 +108,24 @@ TEST_F(PointerEvdev, UnpluggedInUseItIsLostAndItsPlaceIsNotFound) {
   EXPECT_EQ(device->state(), State::Lost);
   device->close();
   EXPECT_EQ(device->open().error().code, ErrorCode::NotFound);
+}
+
+// Two fingers: each has a mouse of its own, also where neither says which.
+TEST_F(PointerEvdev, AMouseIsOneFingerAlone) {
+  UmockdevMouse first(bed_, 3, UmockdevMouse::mouse()), other(bed_, 12, UmockdevMouse::mouse());
+  const auto left = run(), right = run();
+  for (const auto& [mouse, x_mm] : {std::pair(&first, 100), std::pair(&other, -200)}) {
+    mouse->say(EV_REL, REL_X, x_mm);
+    mouse->say(EV_SYN, SYN_REPORT, 0);
+  }
+  until(*left, [](const HapticSample& sample) { return std::abs(sample.position_mm.x - 10) < 1e-6; });
+  until(*right, [](const HapticSample& sample) { return std::abs(sample.position_mm.x + 20) < 1e-6; });
+  for (const char* path : {"", "/dev/input/event3"}) {
+    EXPECT_STREQ(makePointer(path, clock_)->open().error().message,
+                 "the mouse is already a finger; plug in another one, or leave one --haptic out");
+  }
+  left->close();
+  EXPECT_TRUE(makePointer("", clock_)->open());
 }
 
 TEST_F(PointerEvdev, WhatIsNoMouseIsRefused) {

@@ -29,6 +29,13 @@ void settleFingers(PlayOptions& play) {
     play.haptic = std::exchange(play.second_haptic, {});
 }
 
+// A device that both fingers name is given the forces of both. Named without a path, two are found for two fingers.
+bool isOneDevice(const PlayOptions& play) {
+  if (play.haptic != play.second_haptic) return false;
+  const bool by_path = play.haptic.withArgument("gamepad") || play.haptic.withArgument("pointer");
+  return by_path || play.haptic.word == "inverse3";
+}
+
 // A window comes with its keys and its mouse; other displays do not have them. A whole screen is watched from a sofa.
 // Whoever sees the film also hears it, and feels it with the available device.
 Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chosen) {
@@ -54,6 +61,10 @@ Outcome<void> settleDevices(PlayOptions& play, const Machine& machine, bool chos
   };
   if (!window && play.remote.plain("window")) return none("--remote window");
   if (!window && play.player.mouse_touches) return none("--haptic pointer:window");
+  if (isOneDevice(play)) {
+    return failOn("--haptic " + play.haptic.text(),
+                  {ErrorCode::InvalidArgument, 0, "is given twice, but is one device; leave one out, or name another"});
+  }
   play.player.unseen = !chosen && !seen;
   return {};
 }

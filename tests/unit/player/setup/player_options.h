@@ -26,11 +26,11 @@ inline Parsed parse(const std::vector<const char*>& arguments, const Machine& ma
   words.insert(words.end(), arguments.begin(), arguments.end());
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  auto options =
-      parseOptions(static_cast<int>(words.size()), words.data(),
-                   {"kms[:CARD] window offscreen[:FILE] mock", "falcon sim[:HAND] pointer replay:FILE mock none",
-                    "evdev keys window script:FILE none", "alsa[:DEVICE] null none", "v4l2 gstreamer[:ELEMENT] ffmpeg"},
-                   machine);
+  auto options = parseOptions(
+      static_cast<int>(words.size()), words.data(),
+      {"kms[:CARD] window offscreen[:FILE] mock", "falcon inverse3 gamepad sim[:HAND] pointer replay:FILE mock none",
+       "evdev keys window script:FILE none", "alsa[:DEVICE] null none", "v4l2 gstreamer[:ELEMENT] ffmpeg"},
+      machine);
   std::string out = testing::internal::GetCapturedStdout();
   std::string err = testing::internal::GetCapturedStderr();
   return {std::move(options), std::move(out), std::move(err)};
