@@ -76,16 +76,28 @@ bool isRate(double hz) {
   return hz >= 1 && hz <= 1e5;
 }
 
-// The device's properties from the first row; nullopt if one is missing or impossible.
+// Its workspace is practically unlimited.
+void putInScene(HapticCapabilities& device) {
+  constexpr double kFarMm = 1000;
+  const glm::dvec3 middle(0, 0, 20);
+  device.workspace_min_mm = middle - glm::dvec3(kFarMm);
+  device.workspace_max_mm = middle + glm::dvec3(kFarMm);
+  device.in_scene = true;
+}
+
+// The device's properties from the first row; nullopt if one is missing or impossible. One that points at the picture
+// has no workspace of its own.
 std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cells) {
   const auto number = [&](std::string_view name) { return numberIn(cells, columnOf(names, name)); };
-  const HapticCapabilities device{.name = "replay",
-                                  .workspace_min_mm = Columns(names, "workspace_min_").in(cells),
-                                  .workspace_max_mm = Columns(names, "workspace_max_").in(cells),
-                                  .peak_force_n = number("peak_force_n"),
-                                  .continuous_force_n = number("continuous_force_n"),
-                                  .max_stiffness_n_per_mm = number("max_stiffness_n_per_mm"),
-                                  .rate_hz = number("rate_hz")};
+  HapticCapabilities device{.name = "replay",
+                            .workspace_min_mm = Columns(names, "workspace_min_").in(cells),
+                            .workspace_max_mm = Columns(names, "workspace_max_").in(cells),
+                            .peak_force_n = number("peak_force_n"),
+                            .continuous_force_n = number("continuous_force_n"),
+                            .max_stiffness_n_per_mm = number("max_stiffness_n_per_mm"),
+                            .rate_hz = number("rate_hz")};
+  const auto is_absent = [](const glm::dvec3& v) { return std::isnan(v.x) && std::isnan(v.y) && std::isnan(v.z); };
+  if (is_absent(device.workspace_min_mm) && is_absent(device.workspace_max_mm)) putInScene(device);
   const glm::dvec3 room = device.workspace_max_mm - device.workspace_min_mm;
   const auto is_sound = [](double value) { return std::isfinite(value) && value > 0; };
   const bool whole = isFinite(room) && room.x > 0 && room.y > 0 && room.z > 0 && is_sound(device.peak_force_n) &&
@@ -94,16 +106,12 @@ std::optional<HapticCapabilities> deviceIn(const Cells& names, const Cells& cell
   return whole ? std::optional(device) : std::nullopt;
 }
 
-// A device whose millimetres are the scene's: its workspace is huge and centred on the default volume.
+// For a path of the finger.
 HapticCapabilities sceneDevice() {
-  constexpr double kFarMm = 1000;
-  const glm::dvec3 middle(0, 0, 20);
-  return {.name = "replay",
-          .workspace_min_mm = middle - glm::dvec3(kFarMm),
-          .workspace_max_mm = middle + glm::dvec3(kFarMm),
-          .peak_force_n = 8.5,
-          .continuous_force_n = 8.5,
-          .max_stiffness_n_per_mm = 1};
+  HapticCapabilities device{
+      .name = "replay", .peak_force_n = 8.5, .continuous_force_n = 8.5, .max_stiffness_n_per_mm = 1};
+  putInScene(device);
+  return device;
 }
 
 class Reader {

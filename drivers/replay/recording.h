@@ -24,9 +24,9 @@ struct Recording {
   std::vector<RecordedTick> ticks;  // at least one
 
   // CSV with named columns in any order: device_x_mm, _y_mm, _z_mm, buttons, device_present and, in the first row, the
-  // device's workspace, forces, stiffness and rate, as `relievo play --record` writes them. Without those,
-  // hip_x_mm.. or x_mm.. in the scene frame of the default display depth of 40 mm: device millimetres are then scene
-  // millimetres, and the workspace is practically unlimited. Otherwise InvalidArgument; the failure names the line.
+  // device's workspace, forces, stiffness and rate, as `relievo play --record` writes them. Without a
+  // workspace, device millimetres are scene millimetres, whatever the box. Without those columns, hip_x_mm.. or x_mm..
+  // in the scene frame, likewise. Otherwise InvalidArgument; the failure names the line.
   [[nodiscard]] static Outcome<Recording> parse(std::string_view csv, const std::string& name);
   // NotFound if the file cannot be read.
   [[nodiscard]] static Outcome<Recording> load(const std::string& path);

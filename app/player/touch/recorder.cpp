@@ -63,8 +63,12 @@ void Recorder::add(const FingerState& tick) {
        << secondsOf(tick.media_time.time_since_epoch()) << tick.device_mm << tick.buttons
        << (tick.device_present ? 1 : 0);
   if (device_) {
-    line << device_->workspace_min_mm << device_->workspace_max_mm << device_->peak_force_n
-         << device_->continuous_force_n << device_->max_stiffness_n_per_mm << device_->rate_hz;
+    if (device_->in_scene) {
+      for (int i = 0; i < 6; ++i) line.skip();
+    } else {
+      line << device_->workspace_min_mm << device_->workspace_max_mm;
+    }
+    line << device_->peak_force_n << device_->continuous_force_n << device_->max_stiffness_n_per_mm << device_->rate_hz;
     device_.reset();
   } else {
     for (int i = 0; i < 10; ++i) line.skip();

@@ -14,7 +14,8 @@ namespace relievo {
 
 // Columns: t_s (since the first tick), hip, proxy (scene mm), force (N, on the hand), contact, media_s (the film's
 // time); position (device mm) and buttons of the device, and whether it answered; workspace, forces, stiffness and rate
-// of the device, in the first row that it is known in and empty afterwards. Numbers are the shortest that read back as
+// of the device, in the first row that it is known in and empty afterwards; no workspace if the device points at the
+// picture. Numbers are the shortest that read back as
 // the same double.
 class Recorder {
  public:

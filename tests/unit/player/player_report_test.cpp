@@ -175,6 +175,10 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTimeAndTheDeviceOnce) {
   tick = {};
   tick.time = MonotonicTime(std::chrono::nanoseconds(100'004'000'001));
   recorder->add(tick);
+  HapticCapabilities mouse{"any", {-1, -2, -3}, {4, 5, 6}, 8, 7, 1, 1000};
+  mouse.in_scene = true;
+  recorder->setDevice(mouse);
+  recorder->add(tick);
   ASSERT_TRUE(recorder->finish());
 
   const std::ifstream file(path);
@@ -188,7 +192,8 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTimeAndTheDeviceOnce) {
             "0,1,2,0.3333333333333333,1.5,2.5,3.5,0.25,0,-1e-07,1,7,0.1,0.2,0.30000000000000004,5,1,,,,,,,,,,\n"
             "0.003,1,2,0.3333333333333333,1.5,2.5,3.5,0.25,0,-1e-07,0,7,0.1,0.2,0.30000000000000004,5,1,"
             "-1,-2,-3,4,5,6,8.5,1.4,1.0666666666666667,1000\n"
-            "0.004000001,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,\n");
+            "0.004000001,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,,,,\n"
+            "0.004000001,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,,,,,,,8,7,1,1000\n");
 }
 
 }  // namespace

@@ -38,13 +38,22 @@ TEST(Recording, IsTheDeviceThatWasRecorded) {
   EXPECT_EQ(device.rate_hz, 2000);
 }
 
-// Scene and device millimetres are the same if the workspace is large and its middle is (0, 0, 20).
+// As of a mouse over the window.
+TEST(Recording, ADeviceWithoutAWorkspaceIsInTheScene) {
+  const Recording recording = parsed(std::string(kDevice) + "0,9,9,9,1,2,3,2,1,,,,,,,8,8,1,1000\n");
+  EXPECT_EQ(recording.ticks[0].position_mm, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(recording.ticks[0].buttons, 2u);
+  EXPECT_TRUE(recording.capabilities.in_scene);
+  EXPECT_EQ(recording.capabilities.peak_force_n, 8);
+  EXPECT_FALSE(parsed(std::string(kDevice) + "0,9,9,9,1,2,3,2,1,-1,-1,-1,1,1,1,8,8,1,1000\n").capabilities.in_scene);
+}
+
 TEST(Recording, WithoutTheDeviceItIsThePathInTheScene) {
   for (const std::string head : {"t_s,hip_x_mm,hip_y_mm,hip_z_mm,proxy_x_mm\n", "t_s,x_mm,y_mm,z_mm,note\n",
                                  "t_s,hip_x_mm,hip_y_mm,hip_z_mm,device_x_mm\n"}) {
     const Recording recording = parsed(head + "0,1,2,3,\n0.00025,4,5,6,\n0.0005,4,5,6,\n");
     EXPECT_EQ(recording.ticks[1].position_mm, glm::dvec3(4, 5, 6));
-    EXPECT_EQ(recording.capabilities.workspace_min_mm + recording.capabilities.workspace_max_mm, glm::dvec3(0, 0, 40));
+    EXPECT_TRUE(recording.capabilities.in_scene);
     EXPECT_GT(recording.capabilities.workspace_max_mm.x, 500);
     EXPECT_EQ(recording.capabilities.rate_hz, 4000);
   }
