@@ -17,7 +17,7 @@ class Replay final : public HapticDevice {
   // Without motors the recorded stiffness is stable at every rate, and the forces stay the recorded ones.
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     HapticCapabilities now = recording_.capabilities;
-    now.rate_hz = rateWithin(now.rate_hz, kMostRateHz);
+    now.rate_hz = rateWithin(std::clamp(now.rate_hz, kLeastRateHz, kMostRateHz), kMostRateHz);
     return now;
   }
 

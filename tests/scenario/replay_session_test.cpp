@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "app/player/touch/recorder.h"
 #include "drivers/replay/replay.h"
@@ -20,11 +21,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class ReplaySession : public testing::TestWithParam<const char*> {
+class ReplayPath : public testing::Test {
  protected:
   // Plays six seconds of the film on that device and returns the recording.
-  std::string record(const std::string& name, std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic) {
+  std::string record(const std::string& name, std::function<std::unique_ptr<HapticDevice>(Clock&)> make_haptic,
+                     std::optional<DisplayVolume> volume = {}) {
     PlayerBench bench;
+    bench.config.volume = volume;
     bench.sources["film"] = PlayerBench::film(120);
     bench.config.duration = 4s;
     bench.make_haptic = std::move(make_haptic);
@@ -41,6 +44,7 @@ class ReplaySession : public testing::TestWithParam<const char*> {
   }
   test::TemporaryFolder folder_;
 };
+class ReplaySession : public ReplayPath, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Devices, ReplaySession, testing::Values("phantom", "falcon,tapping", "polhem,shaking"));
 
 TEST_P(ReplaySession, IsTheRecordedOneToTheLastByte) {
@@ -54,6 +58,25 @@ TEST_P(ReplaySession, IsTheRecordedOneToTheLastByte) {
       record("again.csv", [this](Clock&) { return makeReplay(Recording::load(folder_ / "first.csv").value()); });
   EXPECT_EQ(again.size(), first.size());
   EXPECT_TRUE(again == first);
+}
+
+// In a box of any depth the finger is where the path is; 25 places a second are gone through in their time.
+TEST_F(ReplayPath, IsInTheSceneAtItsTime) {
+  const auto replay = [this](const char* name) {
+    return [name, this](Clock&) { return makeReplay(Recording::load(folder_ / name).value()); };
+  };
+  for (const auto& [depth_mm, after_a_second] : {std::pair(20.0, "\n1,3,-4,11.75,"), std::pair(80.0, "\n1,3,-4,47,")}) {
+    std::ofstream path(folder_ / "path.csv");
+    path << "t_s,x_mm,y_mm,z_mm\n";
+    for (int i = 0; i <= 100; ++i) {
+      path << 0.04 * i << ",3,-4," << std::max(0.25 * depth_mm, (0.9 - 0.0125 * i) * depth_mm) << "\n";
+    }
+    path.close();
+    const DisplayVolume box{160, 120, depth_mm};
+    const std::string first = record("first.csv", replay("path.csv"), box);
+    EXPECT_NE(first.find(after_a_second), std::string::npos) << depth_mm;
+    EXPECT_TRUE(record("again.csv", replay("first.csv"), box) == first);
+  }
 }
 
 // The finger's force at its time in microseconds.

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace relievo {
 namespace {
 
@@ -155,6 +157,18 @@ TEST(Replay, AtAnotherRateTakesAsLongAndGoesInBetween) {
   EXPECT_THAT(replayedAt(1000, 6), ElementsAre(0, 3, 9, -1, 1, 1));
   EXPECT_THAT(replayedAt(500, 4), ElementsAre(0, 9, 1, 1));
   EXPECT_THAT(replayedAt(4000, 18), ElementsAre(0, 0.75, 1.5, 2.25, 3, 4.5, 6, 7.5, 9, 9, 9, 9, -1, -1, -1, -1, 1, 1));
+}
+
+// A path of 25 places a second, and one of 16000.
+TEST(Replay, APathTakesAsLongAsItTook) {
+  const auto read = [](const std::string& csv, int times) {
+    const auto device = makeReplay(parsed(csv));
+    EXPECT_TRUE(device->open() && device->home() && device->start());
+    for (int i = 1; i < times; ++i) EXPECT_TRUE(device->read());
+    return std::pair(device->capabilities().rate_hz, device->read()->position_mm.x);
+  };
+  EXPECT_EQ(read("t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0.04,20,0,0\n0.08,40,0,0\n", 6), std::pair(500.0, 5.0));
+  EXPECT_EQ(read("t_s,x_mm,y_mm,z_mm\n0,0,0,0\n0.0000625,1,0,0\n0.000125,2,0,0\n", 2), std::pair(8000.0, 2.0));
 }
 
 TEST(Replay, KeepsTheRecordedStiffnessAtEveryRate) {
