@@ -2,12 +2,25 @@
 // Key states: one held key, its next repeat, and its release after silence.
 #include "drivers/evdev/key_hold.h"
 
+#include <linux/input-event-codes.h>
+
+#include <algorithm>
+
 namespace relievo {
+namespace {
+
+constexpr std::array<std::uint16_t, 4> kModifiers{KEY_LEFTSHIFT, KEY_RIGHTSHIFT, KEY_LEFTCTRL, KEY_RIGHTCTRL};
+
+}  // namespace
 
 void KeyHold::take(std::uint16_t code, int value, MonotonicTime now) noexcept {
+  const auto modifier = std::ranges::find(kModifiers, code);
+  if (modifier != kModifiers.end()) {
+    return turnModifier(static_cast<std::size_t>(modifier - kModifiers.begin()), value != 0, now);
+  }
   if (value == 0) {
     sends_releases_ = true;
-    if (held_ && held_->code == code) letGo(now);
+    if (held_ && held_->code == code) endHeld(now);
     return;
   }
   if (held_ && held_->code == code) {
@@ -15,18 +28,29 @@ void KeyHold::take(std::uint16_t code, int value, MonotonicTime now) noexcept {
     return;
   }
   if (value != 1) return;  // a repeat of a key that another key has ended
-  letGo(now);
+  endHeld(now);
   say(code, KeyEvent::Action::Press, now);
   held_ = Held{code, now, now + kDelay};
 }
 
 void KeyHold::letGo(MonotonicTime now) noexcept {
+  endHeld(now);
+  for (std::size_t i = 0; i < kModifiers.size(); ++i) turnModifier(i, false, now);
+}
+
+void KeyHold::endHeld(MonotonicTime now) noexcept {
   if (held_) say(held_->code, KeyEvent::Action::Release, now);
   held_.reset();
 }
 
+void KeyHold::turnModifier(std::size_t which, bool down, MonotonicTime now) noexcept {
+  if (modifiers_down_[which] == down) return;
+  modifiers_down_[which] = down;
+  say(kModifiers[which], down ? KeyEvent::Action::Press : KeyEvent::Action::Release, now);
+}
+
 std::optional<KeyEvent> KeyHold::poll(MonotonicTime now) noexcept {
-  if (held_ && !sends_releases_ && now - held_->heard > kSilence) letGo(now);
+  if (held_ && !sends_releases_ && now - held_->heard > kSilence) endHeld(now);
   if (held_ && count_ == 0 && now >= held_->next_repeat) {
     say(held_->code, KeyEvent::Action::Repeat, now);
     // After a long gap between polls, the missed repeats are skipped.

@@ -17,7 +17,8 @@ namespace relievo {
 // release. After kSilence without events a key counts as released, unless this remote has sent a release
 // before.
 //
-// One key at a time: another one ends the first. Pure arithmetic; times must not go back.
+// One key at a time: another one ends the first. Shift and Ctrl are beside it: they end nothing and do not repeat. Pure
+// arithmetic; times must not go back.
 class KeyHold {
  public:
   static constexpr Duration kDelay = std::chrono::milliseconds(500);   // from the press to the first repeat
@@ -29,7 +30,7 @@ class KeyHold {
 
   // `value` of an EV_KEY input_event: 0 release, 1 press, 2 repeat by the kernel.
   void take(std::uint16_t code, int value, MonotonicTime now) noexcept;
-  // The remote was unplugged: releases the held key.
+  // The remote was unplugged: releases what is held.
   void letGo(MonotonicTime now) noexcept;
   // The next event up to `now`.
   [[nodiscard]] std::optional<KeyEvent> poll(MonotonicTime now) noexcept;
@@ -40,9 +41,12 @@ class KeyHold {
     MonotonicTime heard;        // time of its last event
     MonotonicTime next_repeat;  // when due
   };
+  void endHeld(MonotonicTime now) noexcept;
+  void turnModifier(std::size_t which, bool down, MonotonicTime now) noexcept;
   void say(std::uint16_t code, KeyEvent::Action action, MonotonicTime now) noexcept;
 
   std::optional<Held> held_;
+  std::array<bool, 4> modifiers_down_{};
   bool sends_releases_;
   std::array<KeyEvent, 32> said_{};  // a ring; holds more than a hand can press between two polls
   std::size_t first_ = 0, count_ = 0;

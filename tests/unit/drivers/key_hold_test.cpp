@@ -67,6 +67,21 @@ TEST(KeyHold, AnotherKeyEndsTheFirst) {
             "PRP105R105");
 }
 
+// Shift and Right, then Ctrl alone, as a keyboard sends them.
+TEST(KeyHold, ShiftAndCtrlStayBesideTheKey) {
+  EXPECT_EQ(heard({{0, KEY_LEFTSHIFT, 1},
+                   {250, KEY_LEFTSHIFT, 2},
+                   {300, KEY_RIGHT, 1},
+                   {850, KEY_RIGHT, 0},
+                   {900, KEY_LEFTSHIFT, 0},
+                   {1000, KEY_RIGHT, 1},
+                   {1010, KEY_RIGHTCTRL, 1},
+                   {1020, KEY_RIGHT, 0},
+                   {3000, KEY_RIGHTCTRL, 0}},
+                  4000),
+            "P42PrRR42PP97RR97");
+}
+
 TEST(KeyHold, WhoLooksAwayGetsOneRepeatForAll) {
   EXPECT_EQ(heard({{0, KEY_RIGHT, 1}, {0, KEY_RIGHT, 0}, {5, KEY_RIGHT, 1}, {6000, KEY_RIGHT, 0}}, 6000, 2000),
             "PRPrR");
@@ -85,9 +100,16 @@ TEST(KeyHold, NothingIsHeldByARemoteThatHasGone) {
   KeyHold keys;
   const MonotonicTime start(std::chrono::hours(1));
   keys.take(KEY_RIGHT, 1, start);
+  keys.take(KEY_LEFTCTRL, 1, start);
   keys.letGo(start);
-  EXPECT_EQ(keys.poll(start)->action, KeyEvent::Action::Press);
-  EXPECT_EQ(keys.poll(start)->action, KeyEvent::Action::Release);
+  for (const auto action : {KeyEvent::Action::Press, KeyEvent::Action::Release}) {
+    for (const int code : {KEY_RIGHT, KEY_LEFTCTRL}) {
+      const auto event = keys.poll(start);
+      ASSERT_TRUE(event);
+      EXPECT_EQ(event->code, code);
+      EXPECT_EQ(event->action, action);
+    }
+  }
   EXPECT_FALSE(keys.poll(start + std::chrono::seconds(9)));
 }
 
