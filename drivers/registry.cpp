@@ -133,7 +133,9 @@ Outcome<std::unique_ptr<HapticDevice>> makeHapticDevice(const BackEndName& name,
 }
 
 Outcome<std::unique_ptr<RemoteInput>> makeRemoteInput(const BackEndName& name, Clock& clock) {
-  if (name.plain("evdev")) return makeEvdevRemote();
+  if (name.plain("evdev")) {
+    return terminalIsThere() ? makeRemoteAtTerminal(makeEvdevRemote(), makeTerminalRemote()) : makeEvdevRemote();
+  }
   if (name.plain("keys")) return makeTerminalRemote();
   if (name.plain("window")) {
     auto pads = makePadRemote([window = theWindow()] { return window->focused.load(); });

@@ -12,4 +12,9 @@ namespace relievo {
 [[nodiscard]] std::unique_ptr<RemoteInput> makeJoinedRemote(std::unique_ptr<RemoteInput> first,
                                                             std::unique_ptr<RemoteInput> second);
 
+// The keys of the first, while the terminal drops what is typed into it: a keyboard that the first reads types there as
+// well, for the shell. If the first cannot be opened, the terminal's keys are taken instead, and a line says so.
+[[nodiscard]] std::unique_ptr<RemoteInput> makeRemoteAtTerminal(std::unique_ptr<RemoteInput> first,
+                                                                std::unique_ptr<RemoteInput> terminal);
+
 }  // namespace relievo

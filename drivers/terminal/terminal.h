@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// While the remote is open, the terminal sends single keys without echo; `close` restores it. Ctrl-C and Ctrl-Z work as
-// usual. Unsupported if `fd` is no terminal; in the background there are no keys. A terminal reports only presses: each
-// is followed by a release at once.
+// While the remote is open, the terminal sends single keys without echo; `close` drops those that were not read, which
+// are not meant for the shell, and restores it. Ctrl-C works as usual. Unsupported if `fd` is no terminal; in the
+// background there are no keys. A terminal reports only presses: each is followed by a release at once.
 [[nodiscard]] std::unique_ptr<RemoteInput> makeTerminalRemote(int fd = 0);
 
 }  // namespace relievo

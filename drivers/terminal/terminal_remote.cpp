@@ -60,7 +60,9 @@ class TerminalRemote final : public RemoteInput {
 
   void closeRemote() noexcept override {
     keys_.clear();
-    if (inForeground()) ::tcsetattr(fd_, TCSANOW, &before_);
+    if (!inForeground()) return;
+    ::tcflush(fd_, TCIFLUSH);
+    ::tcsetattr(fd_, TCSANOW, &before_);
   }
 
   // The kernel stops a background program that reads from or configures its terminal.

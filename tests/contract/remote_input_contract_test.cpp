@@ -157,6 +157,34 @@ TEST(JoinedRemote, HasTheKeysOfBothAndDoesWithoutTheSecond) {
   EXPECT_FALSE(one->poll(MonotonicTime(1h)).value());
 }
 
+// A console, into which the keyboard types that evdev reads as well.
+TEST(RemoteAtTerminal, TheTerminalsKeysAreForNobody) {
+  const Terminal terminal;
+  const auto window = std::make_shared<WindowInput>();
+  const auto remote = makeRemoteAtTerminal(makeWindowRemote(window), makeTerminalRemote(terminal.inside.get()));
+  ASSERT_TRUE(remote->open());
+  ASSERT_TRUE(window->keys.tryPush({.code = KEY_SPACE}));
+  terminal.type("reboot\r");
+  EXPECT_EQ(remote->poll(MonotonicTime(1h)).value()->code, KEY_SPACE);
+  EXPECT_FALSE(remote->poll(MonotonicTime(1h)).value());
+  pollfd shell{.fd = terminal.inside.get(), .events = POLLIN, .revents = 0};
+  EXPECT_EQ(::poll(&shell, 1, 0), 0) << "they do not fill the terminal, which would keep Ctrl-C out";
+  terminal.type("reboot\r");
+  remote->close();
+  EXPECT_EQ(::poll(&shell, 1, 0), 0) << "nothing is left for the shell";
+}
+
+TEST(RemoteAtTerminal, TheTerminalsKeysAreTakenWhereTheOthersMayNotBeRead) {
+  const Terminal terminal;
+  const UniqueFd nothing(::open("/dev/null", O_RDONLY));
+  const auto refused = [&] { return makeTerminalRemote(nothing.get()); };
+  const auto remote = makeRemoteAtTerminal(refused(), makeTerminalRemote(terminal.inside.get()));
+  ASSERT_TRUE(remote->open());
+  terminal.type("q");
+  EXPECT_EQ(remote->poll(MonotonicTime(1h)).value()->code, KEY_Q);
+  EXPECT_FALSE(makeRemoteAtTerminal(refused(), refused())->open());
+}
+
 TEST(WindowRemote, WhatWasPressedBeforeItListenedIsNotMeantForIt) {
   const auto window = std::make_shared<WindowInput>();
   const auto remote = makeWindowRemote(window);
