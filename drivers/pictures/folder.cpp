@@ -100,6 +100,24 @@ PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& fou
   return {folder, {}};
 }
 
+// Beside depth without colour: the folder whose name says nothing ("frames", "JPEGImages") but whose pictures have most
+// of the depth's names, or at least their number. The others are told.
+PictureFiles colorBeside(const std::string& folder, const Listing& listing, FoundPictures& found) {
+  std::map<std::string, std::size_t> worth;
+  for (const std::string& name : listing.folders) {
+    if (roleOf(name) != Role::Unsaid || isPainted(name)) continue;
+    const auto pictures = listingOf(folder + name).value_or(Listing{}).pictures;
+    if (!pictures.empty()) worth[name] = likeness(pictures, found.depth.names);
+  }
+  const auto best = std::ranges::max_element(worth, {}, [](const auto& entry) { return entry.second; });
+  std::string taken;
+  if (best != worth.end() && best->second > 0) taken = best->first;
+  for (const auto& [name, shared] : worth) {
+    if (name != taken) found.notes.push_back(name + " is left out: its pictures have no names of the depth's");
+  }
+  return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
+}
+
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
@@ -112,6 +130,7 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
     found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
                          : PictureFiles{folder, oneKind(listing.pictures, Role::Color, found.left_out)};
     if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", Role::Color, found).names.size();
+    if (found.color.names.empty()) found.color = colorBeside(folder, listing, found);
   }
   return !found.color.names.empty() || !found.depth.names.empty();
 }

@@ -25,6 +25,7 @@ struct FoundPictures {
   bool paired = false;          // the list says which pictures belong together: equal values
   bool views = false;           // `depth` is no depth but the right view, `color` the left one
   std::size_t left_out = 0;     // pictures of another ending or purpose
+  std::vector<std::string> notes;
 };
 
 // The path of a local address: without "file:".
@@ -33,9 +34,9 @@ struct FoundPictures {
 // Whether `url` is a folder, a picture or a list that exists, or a pattern of pictures' names. Reads no file.
 [[nodiscard]] bool namesPictures(const std::string& url);
 
-// A folder   with sub-folders of colour (rgb, color, image, ..) and depth (depth, disparity, ..), or pictures whose
-//            names hold such words ("frame-000000.depth.png"), or two views and their disparities (stereo.h), else one
-//            series; associations.txt in it is read
+// A folder   with sub-folders of colour (rgb, color, image, .., or one with the depth's names) and depth (depth,
+//            disparity, ..), or pictures whose names hold such words ("frame-000000.depth.png"), or two views and their
+//            disparities (stereo.h), else one series; associations.txt in it is read
 // A pattern  "a/b%06d.png" with any first number, or "a/*.png" in the last part of the path
 // A list     associations.txt
 // A picture  alone

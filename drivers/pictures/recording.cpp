@@ -169,6 +169,7 @@ std::vector<TimedPicture> timed(const PictureFiles& files, const Series& series,
 
 Timing timingOf(const FoundPictures& found) {
   Timing timing;
+  timing.notes = found.notes;
   if (!found.color_values.empty()) {
     timing.kind = found.listed_numbers ? NameKind::Numbers : NameKind::Seconds;
     timing.color = inOrder(found.color_values);

@@ -112,6 +112,17 @@ std::string keyOf(std::string_view name) {
   return key;
 }
 
+std::size_t likeness(const std::vector<std::string>& names, const std::vector<std::string>& others) {
+  std::set<std::string> keys;
+  for (const std::string& name : others) keys.insert(keyOf(name));
+  const auto shared = std::ranges::count_if(names, [&](const auto& name) { return keys.contains(keyOf(name)); });
+  return std::max<std::size_t>(static_cast<std::size_t>(shared), names.size() == others.size() ? 1 : 0);
+}
+
+bool isPainted(std::string_view name) {
+  return holdsOne(wordsOf(name), kPainted);
+}
+
 std::size_t keepBestDepth(std::vector<std::string>& names) {
   if (names.empty()) return 0;
   std::map<std::vector<std::string>, std::set<std::string>> kinds;  // digits by words

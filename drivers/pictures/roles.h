@@ -24,6 +24,12 @@ enum class Role : std::uint8_t {
 // ending, the words of colour and depth, and what separates the others.
 [[nodiscard]] std::string keyOf(std::string_view name);
 
+// How many keys of two series are the same; 1 if none is but the series are equally long.
+[[nodiscard]] std::size_t likeness(const std::vector<std::string>& names, const std::vector<std::string>& others);
+
+// Whether a name says that what it names is painted for the eye: "vis", "colormap".
+[[nodiscard]] bool isPainted(std::string_view name);
+
 // Keeps the pictures of a folder that are of the kind of its best depth. Left out are those that the names tell to be
 // another one of the same frames: "0-depth_true.png" beside "0-depth.png", and all that are painted for the eye
 // ("0-depth_vis.png") beside others. Returns how many are.

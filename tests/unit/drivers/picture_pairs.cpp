@@ -64,5 +64,24 @@ TEST_F(Pictures, OfTwoEndingsOfDepthTheOneWithNumbersIsTaken) {
   EXPECT_EQ(read(folder_ / "d").color.front(), "0 d/rgb/0.jpg");
 }
 
+TEST_F(Pictures, AFolderBesideDepthIsColourIfItsNamesAreThose) {
+  for (const char* name : {"1", "2", "3"}) {
+    for (const char* folder : {"a/depth", "a/frames", "b/depth", "b/JPEGImages", "c/depth"})
+      file(std::string(folder) + "/" + name + ".png");
+    for (const char* folder : {"b/Annotated", "c/sketches"}) file(std::string(folder) + "/x" + name + "y.png");
+    file("c/vis/" + std::string(name) + ".png");
+  }
+  file("c/sketches/4.png");
+  const Film frames = read(folder_ / "a", 10);
+  EXPECT_THAT(frames.color, ElementsAre("0 a/frames/1.png", "100 a/frames/2.png", "200 a/frames/3.png"));
+  EXPECT_EQ(frames.depth.size(), 3u);
+  const Film several = read(folder_ / "b", 10);
+  EXPECT_EQ(several.color.front(), "0 b/JPEGImages/1.png");
+  EXPECT_THAT(several.notes, Contains("Annotated is left out: its pictures have no names of the depth's"));
+  const Film alone = read(folder_ / "c", 10);
+  EXPECT_EQ(alone.streams.size(), 1u) << "neither other names nor painted depth";
+  EXPECT_THAT(alone.notes, Contains(HasSubstr("sketches is left out")));
+}
+
 }  // namespace
 }  // namespace relievo
