@@ -14,11 +14,24 @@ constexpr std::size_t kMostTopics = 64;
 constexpr const char* kRaw = "sensor_msgs/Image";
 constexpr const char* kCompressed = "sensor_msgs/CompressedImage";
 
+// "ir" as a word: "/ir/image", "/cam_ir1", "/ir_left", but not "/iris_0".
+bool saysIr(std::string_view topic) {
+  const auto lower = [&](std::size_t i) {
+    return i < topic.size() ? std::tolower(static_cast<unsigned char>(topic[i])) : 0;
+  };
+  for (std::size_t i = 0; i < topic.size(); ++i) {
+    if ((topic[i] == '/' || topic[i] == '_') && lower(i + 1) == 'i' && lower(i + 2) == 'r' &&
+        std::isalpha(lower(i + 3)) == 0)
+      return true;
+  }
+  return false;
+}
+
 Role roleOf(const std::string& topic, const PictureKind& kind) {
   const auto any = [&](std::initializer_list<const char*> words) {
     return std::ranges::any_of(words, [&](const char* word) { return speaksOf(topic, word); });
   };
-  if (any({"infra", "/ir", "_ir"})) return Role::Infrared;
+  if (speaksOf(topic, "infra") || saysIr(topic)) return Role::Infrared;
   if (any({"confidence", "mask", "label", "disparity"})) return Role::Other;
   if (kind.distances) return any({"amplitude", "intensity"}) ? Role::Infrared : Role::Depth;
   // A coloured image of the depth, made for viewing.

@@ -48,6 +48,23 @@ TEST_F(RosbagSource, RealSensesInfraredIsNotDepth) {
   expectDepth(framesOf(*source, depth));
 }
 
+// PX4's simulated drone iris.
+TEST_F(RosbagSource, AnIrisIsNotInfrared) {
+  BagWriter bag("none");
+  const auto depth = bag.connect("/iris_0/camera/depth/image_raw", "sensor_msgs/Image");
+  const auto color = bag.connect("/iris_0/camera/color/image_raw", "sensor_msgs/Image");
+  const auto infrared = bag.connect("/iris_0/camera/ir_left/image_raw", "sensor_msgs/Image");
+  for (int i = 0; i < kPictures; ++i) {
+    bag.write(infrared, 1000 * kMs + i * 33 * kMs, bagImage(depthImage(i)));
+    bag.write(depth, 1000 * kMs + i * 33 * kMs, bagImage(depthImage(i)));
+    bag.write(color, 1000 * kMs + i * 33 * kMs, bagImage(colorImage(i, "bgr8")));
+  }
+  const auto source = open(bag.finish());
+  EXPECT_EQ(streamOf(*source, "/iris_0/camera/depth/image_raw")->kind, StreamKind::Video);
+  EXPECT_EQ(streamOf(*source, "/iris_0/camera/color/image_raw")->kind, StreamKind::Video);
+  EXPECT_EQ(streamOf(*source, "/iris_0/camera/ir_left/image_raw")->kind, StreamKind::Other);
+}
+
 TEST_F(RosbagSource, RealSensesOptionIsTheUnitOfOldRecordings) {
   const auto source = open(realSenseBag(0, 0));
   const StreamInfo depth = *streamOf(*source, "/device_0/sensor_0/Depth_0/image/data");
