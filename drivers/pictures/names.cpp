@@ -157,6 +157,15 @@ std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>&
   return values;
 }
 
+// "20230101" of "IMG_20230101_101010".
+std::string_view dateIn(std::string_view stem) {
+  for (const Run& run : runsOf(stem)) {
+    if (run.digits && run.text.size() == 8 && (run.text.starts_with("20") || run.text.starts_with("19")))
+      return run.text;
+  }
+  return "";
+}
+
 std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -177,20 +186,25 @@ std::optional<std::int64_t> integerIn(std::string_view text) noexcept {
 std::int64_t clockUnit(std::vector<std::int64_t> values) {
   constexpr std::size_t kFewest = 3;
   constexpr std::int64_t kUnixMs = 1'000'000'000'000, kUnixUs = 1000 * kUnixMs, kUnixNs = 1000 * kUnixUs;  // 2001
-  constexpr std::int64_t kLeastStepNs = 1'000'000, kLeastStepUs = 10'000, kJitter = 2;
+  constexpr std::int64_t kLeastStepNs = 1'000'000, kLeastStepUs = 10'000, kLeastUsualNs = 4'000'000, kJitter = 2;
   std::ranges::sort(values);
   values.erase(std::ranges::unique(values).begin(), values.end());
   if (values.empty() || values.front() < 0) return 0;
   std::int64_t ns = 0;
   if (values.front() >= kUnixMs) {
     ns = values.front() >= kUnixNs ? 1 : values.front() >= kUnixUs ? 1000 : 1'000'000;
-  } else if (values.size() >= kFewest) {
+  } else if (values.size() >= kFewest || (values.size() > 1 && values.front() > kMostSeconds)) {
     std::vector<std::int64_t> steps(values.size());
     std::adjacent_difference(values.begin(), values.end(), steps.begin());
     steps.erase(steps.begin());
     std::ranges::sort(steps);
-    const bool regular = steps[(steps.size() - 1) / 2] / kJitter <= steps.front();  // the numbers of photos are not
-    if (regular) ns = steps.front() >= kLeastStepNs ? 1 : steps.front() >= kLeastStepUs ? 1000 : 0;
+    const std::int64_t usual = steps[(steps.size() - 1) / 2];
+    const bool regular = usual / kJitter <= steps.front();  // the numbers of photos are not
+    const bool is_30_hz = (usual == 33 || usual == 34) &&
+                          std::ranges::any_of(steps, [&](std::int64_t step) { return step % usual != 0; });
+    if (values.front() > kMostSeconds) ns = usual >= kLeastUsualNs ? 1 : 1000;
+    else if (is_30_hz) ns = 1'000'000;
+    else if (regular) ns = steps.front() >= kLeastStepNs ? 1 : steps.front() >= kLeastStepUs ? 1000 : 0;
   }
   return ns > 0 && values.back() <= kMostSeconds * (1'000'000'000 / ns) ? ns : 0;
 }
@@ -222,7 +236,9 @@ bool areUnrelated(const std::vector<std::string>& names) {
     std::erase_if(words, [](char c) { return c >= '0' && c <= '9'; });
     return words;
   };
-  return std::ranges::any_of(names, [&](const auto& name) { return wordsOf(name) != wordsOf(names.front()); });
+  const std::string words = wordsOf(names.front()), date(dateIn(stemOf(names.front())));
+  return std::ranges::any_of(names,
+                             [&](const auto& name) { return wordsOf(name) != words || dateIn(stemOf(name)) != date; });
 }
 
 }  // namespace relievo::pictures

@@ -75,10 +75,12 @@ void countByRank(Series& series) {
   for (std::size_t i = 0; i < series.size(); ++i) series[i].value = static_cast<std::int64_t>(i);
 }
 
-Duration usualStep(const std::vector<TimedPicture>& pictures) {
-  std::vector<Duration> steps;
-  for (std::size_t i = 1; i < pictures.size(); ++i) steps.push_back(pictures[i].time - pictures[i - 1].time);
-  if (steps.empty()) return Duration(0);
+// The median of what a member of neighbours differs by; 0 for a single one.
+template <class Item, class Value>
+Value usualStep(const std::vector<Item>& items, Value Item::* value) {
+  std::vector<Value> steps;
+  for (std::size_t i = 1; i < items.size(); ++i) steps.push_back(items[i].*value - items[i - 1].*value);
+  if (steps.empty()) return Value(0);
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::ranges::nth_element(steps, middle);
   return *middle;
@@ -88,10 +90,12 @@ Duration usualStep(const std::vector<TimedPicture>& pictures) {
 struct Timing {
   NameKind kind = NameKind::Ranks;
   Series color, depth;
+  bool far = false;  // the names have numbers, but they count nothing
   std::vector<std::string> notes;
 
   void align(const FoundPictures& found, NameKind depth_kind);
   bool pairByKey(const FoundPictures& found);
+  void rankFarNumbers();
   void noteGaps();
 };
 
@@ -139,6 +143,22 @@ void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   }
 }
 
+// Numbers of photos from a shop or a web site. Depth without its colour is left out.
+void Timing::rankFarNumbers() {
+  constexpr std::int64_t kFarthest = 100;
+  if (kind != NameKind::Numbers || depth.empty() || usualStep(color, &Valued::value) <= kFarthest) return;
+  Series kept;
+  for (const Valued& each : depth) {
+    const auto same = std::ranges::lower_bound(color, each.value, {}, &Valued::value);
+    if (same != color.end() && same->value == each.value) kept.push_back({same - color.begin(), each.place});
+  }
+  if (kept.empty()) return;
+  depth = std::move(kept);
+  countByRank(color);
+  kind = NameKind::Ranks;
+  far = true;
+}
+
 void Timing::noteGaps() {
   const Series& leading = color.empty() ? depth : color;
   if (kind != NameKind::Numbers || leading.size() < 2) return;
@@ -182,6 +202,7 @@ Timing timingOf(const FoundPictures& found) {
   timing.color = inOrder(color.values);
   timing.depth = inOrder(depth.values);
   timing.align(found, depth.kind);
+  if (!found.views) timing.rankFarNumbers();
   return timing;
 }
 
@@ -192,7 +213,8 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   timing.noteGaps();
   const bool both = !timing.color.empty() && !timing.depth.empty();
   const bool counted = timing.kind != NameKind::Seconds;
-  const bool photos = both && !found.views && timing.kind == NameKind::Ranks && areUnrelated(found.color.names);
+  const bool photos =
+      both && !found.views && timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
   const double rate = frames_per_s.value_or(photos ? kPhotoRate : both ? kSensorRate : kUsualRate);
   const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
   const double period_ns = counted ? 1e9 / rate : 1;
@@ -201,7 +223,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.color = timed(found.color, timing.color, first, period_ns);
   recording.depth = timed(found.depth, timing.depth, first, period_ns);
   const auto& leading = recording.color.empty() ? recording.depth : recording.color;
-  recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading);
+  recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading, &TimedPicture::time);
   if (leading.size() < 2) recording.period = Duration(0);
   if (timing.kind != NameKind::Ranks) {
     recording.start = timeAfter(first, period_ns);
@@ -210,11 +232,11 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   recording.notes = std::move(timing.notes);
   if (counted && !frames_per_s && leading.size() > 1) {
     recording.notes.push_back(
-        photos
-            ? print("the file names have nothing in common, so these are photos: each is shown for %.0f s; give one of "
-                    "them to play it alone, --fps F for a film",
-                    1 / rate)
-            : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
+        photos ? print("the file names do not count the pictures, so these are photos: each is shown for %.0f s; give "
+                       "one of "
+                       "them to play it alone, --fps F for a film",
+                       1 / rate)
+               : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }
   recording.views = found.views;
   if (both && !found.views)

@@ -57,6 +57,17 @@ TEST(PictureNames, NumbersThatAreFarApartAreNanosecondsOrMicroseconds) {
   EXPECT_EQ(valuesOf({"397133.png", "37777.png", "252219.png", "87038.png"}).kind, NameKind::Numbers);
 }
 
+// Polycam's keyframes: microseconds, irregular; ms of a film of 30 pictures a second.
+TEST(PictureNames, NumbersBeyondAnyCountAreTimesAndSoAreJitteringMilliseconds) {
+  expectMoments({"435456552349.jpg", "435461133940.jpg", "435461500000.jpg", "435462000123.jpg", "435463200468.jpg",
+                 "435463433679.jpg"},
+                {435456552349000, 435461133940000, 435461500000000, 435462000123000, 435463200468000, 435463433679000});
+  expectMoments({"435456552349.jpg", "435490552349.jpg"}, {435456552349, 435490552349});
+  expectMoments({"100000.png", "100034.png", "100067.png", "100133.png", "100167.png"},
+                {100000000000, 100034000000, 100067000000, 100133000000, 100167000000});
+  EXPECT_EQ(valuesOf({"0.png", "33.png", "66.png", "132.png"}).kind, NameKind::Numbers) << "each 33rd";
+}
+
 TEST(PictureLists, WholeNumbersMayBeTimes) {
   const auto timeOf = [](const char* text) {
     const auto list = pictures::parsePictureList(text, 1);

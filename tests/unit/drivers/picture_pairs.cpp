@@ -83,5 +83,31 @@ TEST_F(Pictures, AFolderBesideDepthIsColourIfItsNamesAreThose) {
   EXPECT_THAT(alone.notes, Contains(HasSubstr("sketches is left out")));
 }
 
+TEST_F(Pictures, NumbersThatAreFarApartArePhotos) {
+  for (const char* name : {"pexels-106399", "pexels-276724", "pexels-1029604", "pexels-2102587"})
+    file("p/images/" + std::string(name) + ".jpg"), file("p/depth/" + std::string(name) + ".png");
+  std::filesystem::remove(folder_ / "p/depth/pexels-276724.png");
+  const Film stock = read(folder_ / "p");
+  EXPECT_THAT(stock.color, ElementsAre("0 p/images/pexels-106399.jpg", "5000 p/images/pexels-276724.jpg",
+                                       "10000 p/images/pexels-1029604.jpg", "15000 p/images/pexels-2102587.jpg"));
+  EXPECT_THAT(stock.depth, ElementsAre("0 p/depth/pexels-106399.png", "10000 p/depth/pexels-1029604.png",
+                                       "15000 p/depth/pexels-2102587.png"));
+  EXPECT_THAT(stock.notes, Contains(HasSubstr("photos")));
+  // Depth of some pictures of a film.
+  for (int k = 0; k <= 400; ++k) file("s/rgb/frame" + std::to_string(k) + ".jpg");
+  for (const char* name : {"0", "200", "400"}) file("s/depth/depth" + std::string(name) + ".png");
+  EXPECT_THAT(read(folder_ / "s", 10).depth,
+              ElementsAre("0 s/depth/depth0.png", "20000 s/depth/depth200.png", "40000 s/depth/depth400.png"));
+}
+
+TEST_F(Pictures, DatesThatDifferArePhotos) {
+  for (const char* name : {"IMG_20230101_101010", "IMG_20230102_111213", "IMG_20230305_151617"})
+    file("p/images/" + std::string(name) + ".jpg"), file("p/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "p").color.back(), "10000 p/images/IMG_20230305_151617.jpg");
+  for (const char* name : {"f_0001_162342", "f_0002_162375", "f_0003_162408"})
+    file("f/images/" + std::string(name) + ".jpg"), file("f/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "f").color.back(), "66.6667 f/images/f_0003_162408.jpg");
+}
+
 }  // namespace
 }  // namespace relievo
