@@ -248,7 +248,9 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (packed == SampleOrder::FloatBytes) return findKind("tartanair");
     if (packed == SampleOrder::BlueGreen) return findKind(isConstant(depth, 0) ? "bg-packed" : "carla");
     if (packed == SampleOrder::Below20) return findKind("carla-near");
-    return distances ? findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed") : nullptr;
+    if (!distances) return nullptr;
+    if (packed == SampleOrder::GreenBlue) return findKind("gb-packed");
+    return findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed");
   }
   if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
   if (isSwapped(depth)) {

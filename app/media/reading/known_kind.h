@@ -20,6 +20,7 @@ enum class SampleOrder : std::uint8_t {
   Swapped,       // big and little endian are confused
   RedGreen,      // of RGB in 8 bits: red is the upper byte, green the lower one
   GreenRed,      // likewise, the other way round
+  GreenBlue,     // likewise, green is the upper byte and blue the lower one
   BlueGreen,     // of 24-bit codes in red, green and blue, the lowest first: the upper two bytes
   Below20,       // likewise, of codes of 20 bits: the upper 16
   EqualColors,   // of RGB of more than 8 bits: each component is the code

@@ -130,6 +130,7 @@ SampleOrder packedOrder(const Frame& depth) {
   if (!isConstant(depth, 2)) {  // of 24 bits the upper 16, whichever end is the upper one
     if (isNumber(depth)) return areBelow20Bits(depth) ? SampleOrder::Below20 : SampleOrder::BlueGreen;
     if (carries(depth, 0, 1)) return SampleOrder::RedGreen;
+    if (isConstant(depth, 0) && carries(depth, 1, 2)) return SampleOrder::GreenBlue;
     return carries(depth, 2, 1) ? SampleOrder::BlueGreen : SampleOrder::AsStored;
   }
   if (carries(depth, 0, 1)) return SampleOrder::RedGreen;

@@ -30,8 +30,9 @@ bool isGray16(const Frame& frame) noexcept {
 }
 
 bool isPackedOrder(SampleOrder order) noexcept {
-  return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::BlueGreen ||
-         order == SampleOrder::Below20 || order == SampleOrder::FloatBytes || isTerrain(order);
+  return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::GreenBlue ||
+         order == SampleOrder::BlueGreen || order == SampleOrder::Below20 || order == SampleOrder::FloatBytes ||
+         isTerrain(order);
 }
 
 std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
@@ -83,6 +84,7 @@ std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noe
   if (!isPackedOrder(order)) return ordered(grayAt(frame, c, r), order);
   const std::uint32_t red = partAt(frame, 0, c, r), green = partAt(frame, 1, c, r);
   if (order == SampleOrder::BlueGreen) return partAt(frame, 2, c, r) << 8 | green;
+  if (order == SampleOrder::GreenBlue) return green << 8 | partAt(frame, 2, c, r);
   return order == SampleOrder::RedGreen ? red << 8 | green : green << 8 | red;
 }
 

@@ -82,6 +82,16 @@ TEST(PackedCodes, TwoBytesInBlueAndGreenAreMillimetres) {
   expectScene(openFilm({.url = folder / "a.png"}), 1, {.mm = 1.01});
 }
 
+// NYU Hand Pose: the upper byte in green, the lower one in blue.
+TEST(PackedCodes, TwoBytesInGreenAndBlueAreMillimetres) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.png", {pictures([](int k, int c, int r) {
+             const auto mm = static_cast<std::uint32_t>(distanceMm(c, r));
+             return k == 1 ? mm >> 8 : k == 2 ? mm & 0xff : 0;
+           })});
+  expectScene(openFilm({.url = folder / "a.png"}), 1, {.mm = 1.01});
+}
+
 // Of a room the blue byte is below 3, and red, the lowest byte, changes everywhere: that is no hue.
 TEST(PackedCodes, CarlasThreeBytesOfARoomAreReadFinely) {
   TemporaryFolder folder;
