@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "app/media/pairs/long_wait.h"
 #include "app/player/screen/bar_script.h"
 #include "app/player/screen/keys_script.h"
 #include "app/player/screen/list_script.h"
@@ -112,12 +113,21 @@ Result<bool> FilmScreen::draw(const FingerMarks& fingers, MonotonicTime now) {
 }
 
 void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now) {
-  const bool any = text_.hasList() || (first_shown_ && osd_);
+  const bool waits = waitsLong(facts.state, now);
+  if (waits) text_.notice({"Opening " + facts.title, std::nullopt}, now);
+  const bool any = text_.hasList() || (osd_ && (first_shown_ || waits));
   auto content = any ? text_.content(facts, statistics_, now) : ScreenContent{};
   if (content == written_) return;
   written_ = content;
   picture_.setText(std::move(content));
   if (next_picture > now + 2 * kRedrawPeriod) redraw_ = true;  // else the next picture shows it
+}
+
+// A window that is hidden until there is a picture comes up by what is written then.
+bool FilmScreen::waitsLong(PlayerState state, MonotonicTime now) noexcept {
+  const bool waits = state == PlayerState::Opening || (state == PlayerState::Buffering && !first_shown_);
+  waits_since_ = waits ? waits_since_.value_or(now) : std::optional<MonotonicTime>();
+  return waits && now - *waits_since_ > kLongWait;
 }
 
 void FilmScreen::turnKeys(ScreenRows rows) {

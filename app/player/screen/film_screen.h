@@ -68,7 +68,8 @@ class FilmScreen {
                                     MonotonicTime now);
   // For when there is no film: the next redraw draws a black picture.
   void clear() noexcept;
-  // Updates the text over the picture, from the first picture on, and the list of films.
+  // Updates the text over the picture, from the first picture on, and the list of films. A film that takes long to open
+  // is named.
   void write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now);
   // True if the viewer has asked for the statistics.
   [[nodiscard]] bool wantsStatistics() const noexcept { return text_.showsStatistics(); }
@@ -109,6 +110,7 @@ class FilmScreen {
 
  private:
   [[nodiscard]] Result<bool> draw(const FingerMarks& fingers, MonotonicTime now);
+  [[nodiscard]] bool waitsLong(PlayerState state, MonotonicTime now) noexcept;
   void lookAhead(const Frame& depth, const DepthComing& coming);
   void writeScreenshot(MonotonicTime now);
   void noteSaved(MonotonicTime now);
@@ -135,7 +137,7 @@ class FilmScreen {
   bool drags_bar_ = false;
   bool redraw_ = false;  // true: redraw even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;
-  std::optional<MonotonicTime> first_shown_;
+  std::optional<MonotonicTime> first_shown_, waits_since_;
 };
 
 }  // namespace relievo

@@ -128,6 +128,15 @@ TEST_F(FilmScreenTest, WhileASignalIsSentTheLayoutStays) {
   EXPECT_TRUE(noted("--tv-signal off"));
 }
 
+TEST_F(FilmScreenTest, AFilmThatTakesLongToOpenIsNamedBeforeItsFirstPicture) {
+  make();
+  for (const int presented : {0, 0, 1}) {  // after 0, 3 and 6 s
+    screen_->write({.title = "a.mkv", .state = PlayerState::Opening}, MonotonicTime::max(), clock_.now());
+    EXPECT_EQ(redraw({}, 3000 * kMs), presented);
+  }
+  EXPECT_EQ(screen_->text().noticed(clock_.now() - 3000 * kMs), "Opening a.mkv");
+}
+
 TEST_F(FilmScreenTest, TheFirstHintLastsFromTheFirstPictureOnHoweverSlowlyThatIsDrawn) {
   const auto hint = [&](Duration later) { return screen_->text().content({}, {}, clock_.now() + later).hint; };
   make();
