@@ -7,6 +7,7 @@
 
 #include "app/player/png_file.h"
 #include "app/player/screen/film_screen.h"
+#include "app/player/user_folder.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
 #include "platform/named_folder.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 // The desktop's folder of pictures, else the current folder.
 fs::path picturesFolder() {
-  fs::path told = namedFolder("XDG_PICTURES_DIR");
+  fs::path told = userFolder("XDG_PICTURES_DIR");
   const fs::path home = namedFolder("HOME");
   if (!told.empty() && isFolder(told)) return told;
   if (!home.empty() && isFolder(home / "Pictures")) return home / "Pictures";

@@ -11,10 +11,10 @@
 #include <filesystem>
 #include <sstream>
 
+#include "app/player/user_folder.h"
 #include "platform/atomic_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
-#include "platform/named_folder.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -95,8 +95,7 @@ std::string logAreas() {
 }  // namespace
 
 std::string defaultConfigPath() {
-  std::filesystem::path own = namedFolder("XDG_CONFIG_HOME");
-  if (const auto home = namedFolder("HOME"); own.empty() && !home.empty()) own = home / ".config";
+  const std::filesystem::path own = configFolder();
   if (!own.empty() && isThere(own / "relievo/relievo.toml")) return own / "relievo/relievo.toml";
   return kSystemPath;
 }

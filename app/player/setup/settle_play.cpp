@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "app/player/user_folder.h"
 #include "platform/named_folder.h"
 
 namespace relievo {
@@ -88,7 +89,7 @@ void settleSignal(PlayOptions& play) {
 }
 
 std::string usualFilms() {
-  if (const auto xdg = namedFolder("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
+  if (const auto xdg = userFolder("XDG_VIDEOS_DIR"); !xdg.empty()) return xdg;
   if (const auto home = namedFolder("HOME"); !home.empty()) return home / "Videos";
   return "/srv/films";
 }
