@@ -70,6 +70,7 @@ Result<void> WindowDisplay::openDisplay(const DisplayConfig& config) {
   fill_asked_.reset();
   mouse_ = {};
   views_ = {};
+  showPointer();
   publishMouse();
   input_->open = true;
   return {};

@@ -58,6 +58,7 @@ class WindowDisplay final : public Display {
   void hearButton(const SDL_MouseButtonEvent& event);
   void hearOtherButton(std::uint8_t button);
   void hearWheel(int notches);
+  void showPointer() noexcept;
   void moveMouse(int x, int y) noexcept;
   [[nodiscard]] bool tellMouse(bool pressed, int notches = 0) const;
   void publishMouse() noexcept;
@@ -74,6 +75,7 @@ class WindowDisplay final : public Display {
   SceneViews views_;
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;
+  MonotonicTime hand_seen_;                                   // when the mouse was used
   std::array<std::uint16_t, SDL_NUM_SCANCODES> held_keys_{};  // the code of each, by scancode
   bool press_taken_ = false;                                  // by what is drawn over the picture
   std::vector<std::string> dropped_;

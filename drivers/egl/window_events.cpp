@@ -24,6 +24,8 @@ std::string typedNext() {
   return any && next.type == SDL_TEXTINPUT ? next.text.text : "";
 }
 
+constexpr Duration kPointerShown = std::chrono::seconds(2);  // after the mouse was used
+
 }  // namespace
 
 // SDL has one event queue for the process: events of another window are passed to its display.
@@ -39,6 +41,7 @@ Result<bool> WindowDisplay::attendScreen() {
     if (void* owner = SDL_GetWindowData(window, kWindowOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
   }
   followFullScreen();
+  if (clock_.now() > hand_seen_ + kPointerShown) SDL_ShowCursor(SDL_DISABLE);
   if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
   return std::exchange(redraw_, false);
 }
@@ -51,6 +54,7 @@ void WindowDisplay::hear(const SDL_Event& event) {
     case SDL_KEYUP:
       return hearKey(event.key);
     case SDL_MOUSEMOTION:
+      showPointer();
       moveMouse(event.motion.x, event.motion.y);
       static_cast<void>(tellMouse(press_taken_));
       return;
@@ -98,6 +102,7 @@ void WindowDisplay::hearKey(const SDL_KeyboardEvent& event) {
 
 void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   const bool down = event.state == SDL_PRESSED;
+  showPointer();
   if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
   if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
   if (event.button == SDL_BUTTON_LEFT) {
@@ -122,6 +127,11 @@ void WindowDisplay::hearOtherButton(std::uint8_t button) {
   for (const auto action : {KeyEvent::Action::Press, KeyEvent::Action::Release}) {
     static_cast<void>(input_->keys.tryPush({.code = code, .action = action, .time = clock_.now()}));
   }
+}
+
+void WindowDisplay::showPointer() noexcept {
+  hand_seen_ = clock_.now();
+  SDL_ShowCursor(SDL_ENABLE);
 }
 
 void WindowDisplay::hearWheel(int notches) {

@@ -30,7 +30,6 @@ int WindowDisplay::trueHeight() noexcept {
 void WindowDisplay::setFullScreen(FullScreen wish) {
   const bool fill = wish == FullScreen::Toggle ? !fillsScreen() : wish == FullScreen::On;
   if (fill == fillsScreen()) return;
-  SDL_ShowCursor(fill ? SDL_DISABLE : SDL_ENABLE);
   if (by_hand_) return leaveByHand();
   if (fill) {
     SDL_GetWindowPosition(window_, &before_.x, &before_.y);

@@ -149,6 +149,29 @@ TEST_F(WindowDisplay, TheMouseIsToldByWhatItPointsAt) {
   }
 }
 
+TEST_F(WindowDisplay, ThePointerIsSeenWhileTheMouseMoves) {
+  const auto seen = [&] {
+    EXPECT_TRUE(display_->attend());
+    return SDL_ShowCursor(SDL_QUERY) == SDL_ENABLE;
+  };
+  EXPECT_TRUE(seen());
+  for (const auto fill : {FullScreen::Off, FullScreen::On}) {
+    display_->fillScreen(fill);
+    EXPECT_TRUE(until([&] {
+      clock_.advance(3s);  // full screen moves the mouse
+      return !seen();
+    }));
+    screen_->moveMouse(place_.x + 50, place_.y + (fill == FullScreen::On ? 60 : 50));
+    EXPECT_TRUE(until(seen));
+    clock_.advance(1900ms);
+    EXPECT_TRUE(seen());
+    clock_.advance(200ms);
+    EXPECT_FALSE(seen());
+  }
+  display_.reset();
+  while (screen_->takeFullScreenWish()) continue;  // nothing is left to the next test
+}
+
 TEST_F(WindowDisplay, ADoubleClickAsksForTheWholeScreen) {
   screen_->focus(window_);
   screen_->moveMouse(place_.x + 50, place_.y + 50);
