@@ -25,6 +25,7 @@ bool startSdl() {
   SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");       // instead of GLX
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");        // the program has its own
   SDL_SetHint(SDL_HINT_MOUSE_FOCUS_CLICKTHROUGH, "1");  // the click that focuses the window counts as well
+  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
   SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
   SDL_SetHint(SDL_HINT_APP_NAME, kWindowTitle);
   SDL_setenv("SDL_IM_MODULE", "none", 0);  // keep input methods from consuming keys
@@ -101,6 +102,8 @@ Result<DisplaySurface> WindowDisplay::startFrame() {
 Result<Duration> WindowDisplay::showFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
   if (std::exchange(hidden_, false)) SDL_ShowWindow(window_);
+  shown_at_ = clock_.now();
+  SDL_DisableScreenSaver();
   SDL_ClearError();
   SDL_GL_SwapWindow(window_);
   if (*SDL_GetError() != '\0') return fail(ErrorCode::Lost, "the window cannot be drawn on any more; opening it again");
@@ -113,7 +116,7 @@ void WindowDisplay::nameFilm(const AnnouncedFilm& film) {
 }
 
 void WindowDisplay::closeDisplay() noexcept {
-  if (window_ != nullptr) input_->open = false;
+  if (window_ != nullptr) input_->open = false, SDL_EnableScreenSaver();
   if (context_ != nullptr) SDL_GL_DeleteContext(std::exchange(context_, nullptr));
   if (window_ != nullptr) SDL_DestroyWindow(std::exchange(window_, nullptr));
 }

@@ -75,6 +75,7 @@ class WindowDisplay final : public Display {
   SceneViews views_;
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;
+  MonotonicTime shown_at_;                                    // the last frame
   MonotonicTime hand_seen_;                                   // when the mouse was used
   std::array<std::uint16_t, SDL_NUM_SCANCODES> held_keys_{};  // the code of each, by scancode
   bool press_taken_ = false;                                  // by what is drawn over the picture

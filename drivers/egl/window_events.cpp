@@ -24,6 +24,7 @@ std::string typedNext() {
   return any && next.type == SDL_TEXTINPUT ? next.text.text : "";
 }
 
+constexpr Duration kStill = std::chrono::seconds(15);  // without a new picture: a film is paused, or there is none
 constexpr Duration kPointerShown = std::chrono::seconds(2);  // after the mouse was used
 
 }  // namespace
@@ -42,6 +43,7 @@ Result<bool> WindowDisplay::attendScreen() {
   }
   followFullScreen();
   if (clock_.now() > hand_seen_ + kPointerShown) SDL_ShowCursor(SDL_DISABLE);
+  if (clock_.now() > shown_at_ + kStill) SDL_EnableScreenSaver();
   if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
   return std::exchange(redraw_, false);
 }

@@ -90,6 +90,25 @@ TEST_F(WindowDisplay, MinimisedItStaysSoWhileTheFilmPlays) {
   }));
 }
 
+// A film shows a picture every few seconds at least, as a slide show; paused, or in the list of films, none changes.
+TEST_F(WindowDisplay, KeepsTheScreenAwakeOnlyWhilePicturesCome) {
+  const auto may_blank = [&](Duration later) {
+    clock_.advance(later);
+    EXPECT_TRUE(display_->attend());
+    return SDL_IsScreenSaverEnabled() == SDL_TRUE;
+  };
+  EXPECT_TRUE(may_blank(0s));
+  for (int picture = 0; picture < 3; ++picture) {
+    drawCorners();
+    EXPECT_FALSE(may_blank(14s));
+  }
+  EXPECT_TRUE(may_blank(2s));
+  drawCorners();
+  EXPECT_FALSE(may_blank(0s));
+  display_->close();
+  EXPECT_EQ(SDL_IsScreenSaverEnabled(), SDL_TRUE);
+}
+
 TEST_F(WindowDisplay, FillsTheScreenAndGivesItBack) {
   screen_->focus(window_);
   for (const auto& [asked, wish] :
