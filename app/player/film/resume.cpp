@@ -82,9 +82,10 @@ std::vector<std::pair<std::string, double>> Resume::all() const {
 
 void Resume::keep(const std::string& url, MediaTime position) {
   if (position.time_since_epoch() < kLeast) return forget(url);
-  const std::string key = keyOf(url);
-  std::erase_if(films_, [&](const auto& film) { return film.first == key; });
-  films_.emplace(films_.begin(), key, toSeconds(position));
+  const std::pair entry(keyOf(url), toSeconds(position));
+  if (!films_.empty() && films_.front() == entry) return;  // a paused film
+  std::erase_if(films_, [&](const auto& film) { return film.first == entry.first; });
+  films_.insert(films_.begin(), entry);
   if (films_.size() > kMostFilms) films_.pop_back();
   changed();
 }

@@ -51,6 +51,16 @@ TEST_F(ResumeTest, PositionsOutliveTheProgram) {
   EXPECT_EQ(again.last(), Resume::keyOf("a.mkv"));
 }
 
+TEST_F(ResumeTest, AFilmThatStandsIsWrittenOnce) {
+  Resume resume(path_, files_);
+  resume.keep("a.mkv", mediaTime(10));
+  std::filesystem::remove(path_);
+  resume.keep("a.mkv", mediaTime(10));
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  resume.keep("a.mkv", mediaTime(11));
+  EXPECT_TRUE(std::filesystem::exists(path_));
+}
+
 TEST_F(ResumeTest, AFilmIsTheSameByWhateverPathItIsNamed) {
   Resume resume(path_, files_);
   resume.keep("films/a.mkv", mediaTime(10));
