@@ -58,7 +58,9 @@ class PlayerBench {
   std::vector<ScriptedKey> keys;
   PlayerConfig config{.source = {.url = "film"}, .own_threads = false};
   bool with_haptic = true;
-  std::optional<MockAudioProfile> audio;  // nothing: a film without an output for its sound
+  std::function<std::unique_ptr<AudioOutput>(Clock&)> make_output;  // in place of the mock
+  std::function<std::unique_ptr<RemoteInput>(Clock&)> make_remote;  // in place of the script
+  std::optional<MockAudioProfile> audio;                            // nothing: a film without an output for its sound
   std::atomic<bool> stop{false};
   std::shared_ptr<MockHapticBench> hand = std::make_shared<MockHapticBench>();
   std::shared_ptr<MockDisplayBench> cable = std::make_shared<MockDisplayBench>();
@@ -75,8 +77,8 @@ class PlayerBench {
     const auto screen = makeMockDisplay(display, time, cable);
     const auto device = make_haptic ? make_haptic(time) : makeMockHaptic(haptic, time, hand);
     const auto second = make_second ? make_second(time) : nullptr;
-    const auto remote = makeScriptedRemote(keys, time);
-    const auto output = audio ? makeMockAudio(*audio, time, ear) : nullptr;
+    const auto remote = make_remote ? make_remote(time) : makeScriptedRemote(keys, time);
+    const auto output = make_output ? make_output(time) : audio ? makeMockAudio(*audio, time, ear) : nullptr;
     Player player(config, {.clock = time,
                            .display = *screen,
                            .haptic = with_haptic ? device.get() : nullptr,

@@ -49,6 +49,7 @@ void FilmPlayback::stop() noexcept {
 
 void FilmPlayback::open(SourceOptions source) {
   notes_.begin(source);
+  sound_.beginFilm();
   source.sound = sound_.format();
   feed_.open(std::move(source));
 }

@@ -29,9 +29,19 @@ constexpr std::size_t kBlockFrames = 4096;
 void Sound::open() {
   if (output_ == nullptr) return;
   const auto opened = output_->open({});
-  format_ = opened.value_or(AudioFormat{});
-  window_.emplace(*format_);
-  block_.resize(kBlockFrames * static_cast<std::size_t>(format_->channels));
+  take(opened.value_or(AudioFormat{}));
+}
+
+void Sound::take(const AudioFormat& format) {
+  format_ = format;
+  window_.emplace(format);
+  block_.resize(kBlockFrames * static_cast<std::size_t>(format.channels));
+}
+
+void Sound::beginFilm() {
+  if (!other_) return;
+  take(*std::exchange(other_, std::nullopt));
+  next_try_ = {};
 }
 
 void Sound::forget() noexcept {
@@ -173,7 +183,7 @@ void Sound::stop() noexcept {
 // True when there is an output to write to.
 bool Sound::ready(MonotonicTime now) {
   if (output_->state() == AudioOutput::State::Open) return true;
-  if (gave_up_ || now < next_try_) return false;
+  if (gave_up_ || other_ || now < next_try_) return false;
   next_try_ = now + kRetryPeriod;
   output_->close();
   const auto opened = output_->open(*format_);
@@ -181,11 +191,14 @@ bool Sound::ready(MonotonicTime now) {
     if (std::exchange(lost_, false)) news_ = News{"sound output back", "it is heard again"};
     return true;
   }
-  gave_up_ = opened.has_value();  // another card: the film is not decoded for that
   output_->close();
-  if (!lost_ && !std::exchange(told_, true)) {
-    news_ = News{std::string("sound: ") + (opened ? "the output has changed its rate" : opened.error().message),
-                 "the film plays without sound; the player tries again"};
+  if (opened) {  // another card: the film is not decoded for that
+    other_ = *opened;
+    news_ = News{"sound: the output has another rate or number of channels than before",
+                 "this film goes on without sound; the next one has it"};
+  } else if (!lost_ && !std::exchange(told_, true)) {
+    news_ =
+        News{std::string("sound: ") + opened.error().message, "the film plays without sound; the player tries again"};
   }
   return false;
 }

@@ -52,6 +52,8 @@ class Sound {
   // available or not.
   void open();
   [[nodiscard]] std::optional<AudioFormat> format() const noexcept { return format_; }
+  // A film begins: takes the format of a card that another one was exchanged for. Before `format`.
+  void beginFilm();
   // For a film without sound: closes the output, which is opened again for a film that has some.
   void rest() noexcept;
   // Multiplies the following samples by `gain`, without a click at the change. `at_once`: also drops the samples that
@@ -78,6 +80,7 @@ class Sound {
   [[nodiscard]] SoundSummary summary() const;
 
  private:
+  void take(const AudioFormat& format);
   [[nodiscard]] bool ready(MonotonicTime now);
   void collect(MediaTime position, FilmFeed& feed);
   void start(MediaTime position);
@@ -113,6 +116,7 @@ class Sound {
   int pictures_late_ = 0;      // number of pictures in that mean
   int restarts_ = 0;           // without having settled in between
   MonotonicTime next_try_;
+  std::optional<AudioFormat> other_;  // that the output has had since it was opened again
   bool gave_up_ = false, lost_ = false, told_ = false;
   bool sounds_ = false;  // there has been sound to play
 

@@ -105,6 +105,50 @@ TEST_F(PlayerSound, OfACardThatGoesAwayTheFilmGoesOnAndItIsTakenUpAgain) {
   }
 }
 
+// Is exchanged for one of another rate when it is opened again.
+class ExchangedCard final : public AudioOutput {
+ public:
+  ExchangedCard(Clock& clock, std::shared_ptr<MockAudioBench> ear) : clock_(clock), ear_(std::move(ear)) {}
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "exchanged"}; }
+
+ private:
+  Result<AudioFormat> openOutput(const AudioFormat& wished) override {
+    card_.reset();  // before the next one is at the ear
+    card_ = makeMockAudio({.format = AudioFormat{.rate_hz = opens_++ == 0 ? 48'000 : 44'100}}, clock_, ear_);
+    return card_->open(wished);
+  }
+  Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
+    return card_->write({samples, frames * static_cast<std::size_t>(card_->format().channels)});
+  }
+  Result<std::optional<AudioPosition>> samplePosition() override { return card_->position(); }
+  Result<void> dropFrames() override { return card_->flush(); }
+  void closeOutput() noexcept override { card_->close(); }
+
+  Clock& clock_;
+  std::shared_ptr<MockAudioBench> ear_;
+  std::unique_ptr<AudioOutput> card_;
+  int opens_ = 0;
+};
+
+TEST_F(PlayerSound, ACardOfAnotherRateIsHeardFromTheNextFilmOn) {
+  film(250);
+  bench_.sources["./one"] = bench_.sources["./two"] = bench_.sources["film"];
+  bench_.texts["list.m3u"] = "one\ntwo\n";
+  bench_.config.source.url = "list.m3u";
+  bench_.make_output = [this](Clock& clock) { return std::make_unique<ExchangedCard>(clock, bench_.ear); };
+  bench_.display.shown = [this, inner = bench_.display.shown] {
+    const double now_s = toSeconds(bench_.clock.now().time_since_epoch());
+    bench_.ear->unplugged = now_s > 1 && now_s < 2;
+    inner();
+  };
+  playsWell();
+  ASSERT_EQ(moments_.size(), 500u);
+  EXPECT_FALSE(moments_[240].heard_s);
+  EXPECT_NEAR(moments_[300].heard_s.value_or(-1), 2.0, 0.02) << "50 pictures into the second film";
+  EXPECT_EQ(bench_.faults("another rate or number of channels"), 1u);
+  EXPECT_EQ(bench_.report.sound.rate_hz, 44'100);
+}
+
 TEST_F(PlayerSound, OfACardThatIsRefusedTheFilmPlaysWithoutAndSaysSoOnce) {
   film(500);
   bench_.audio->fail_open = ErrorCode::Exhausted;
