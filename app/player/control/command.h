@@ -53,7 +53,7 @@ enum class PlayerVerb : std::uint8_t {
   SubtitleDelayBy,  // seconds
   SubtitleSizeBy,   // factor, added
   ChapterBy,        // chapters; -1: to this one's beginning, or to the one before it
-  LoopAB,           // first sets the beginning of the repeated part, then its end, then clears both
+  LoopAB,           // first sets one end of the repeated part, then the other, then clears both
 };
 
 // The value of AudioTrack and SubtitleTrack for the one before; before the first one are no subtitles.

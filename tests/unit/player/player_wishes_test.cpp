@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "app/player/control/loop_ab.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -169,7 +170,7 @@ TEST(Wishes, SeeksCountFromHereFromZeroOrByTheLength) {
 
 TEST(Wishes, WhatTheStateDoesNotAllowIsNotEvenNoted) {
   Situation s = playing();
-  s.state = PlayerState::Opening;
+  s.state = PlayerState::Ended;
   s.length = Duration(0);
   EXPECT_EQ(asked(PlayerVerb::Faster, s), "");
   EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "");
@@ -189,6 +190,30 @@ TEST(Wishes, NextEndsWithTheList) {
   EXPECT_EQ(asked(PlayerVerb::Next, s), "film 2");
   s.film = 2;
   EXPECT_EQ(asked(PlayerVerb::Next, s), "");
+}
+
+TEST(MarkedPart, LiesBetweenItsTwoMarksInWhateverOrderTheyAreSet) {
+  LoopAB part;
+  part.mark(mediaTime(8));
+  EXPECT_FALSE(part.to());
+  part.mark(mediaTime(8));
+  EXPECT_FALSE(part.to()) << "a part without length";
+  part.mark(mediaTime(5));
+  EXPECT_EQ(part.from(), mediaTime(5));
+  EXPECT_EQ(part.to(), mediaTime(8));
+  part.mark(mediaTime(6));
+  EXPECT_FALSE(part.from());
+}
+
+TEST(MarkedPart, OutlivesOneSlowRoundButNotPicturesThatAreAlwaysBehindIt) {
+  LoopAB part;
+  part.mark(mediaTime(5));
+  part.mark(mediaTime(5.2));
+  for (const double slow_s : {5.3, 5.5}) EXPECT_EQ(part.backFrom(mediaTime(slow_s)), mediaTime(5));
+  EXPECT_FALSE(part.backFrom(mediaTime(5.1)));
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(part.backFrom(mediaTime(5.3)), mediaTime(5));
+  EXPECT_FALSE(part.backFrom(mediaTime(5.3)));
+  EXPECT_FALSE(part.from());
 }
 
 }  // namespace
