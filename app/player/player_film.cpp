@@ -7,6 +7,7 @@
 #include "app/player/player.h"
 #include "app/scene/film_box.h"
 #include "platform/log.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -105,10 +106,13 @@ void Player::followOpening(MonotonicTime now) {
   }
   journal_.filmIs(film_.opened());
   beginWords();
+  const Duration length = film_.info().duration;
   if (const auto start = std::exchange(config_.start, std::nullopt)) {
-    return seek(*start, PlayerEvent::Seek, false, now);
+    if (length <= Duration(0) || *start < MediaTime(length)) return seek(*start, PlayerEvent::Seek, false, now);
+    return journal_.note(print("the film ends at %.1f s, before %.1f s", toSeconds(length), toSeconds(*start)),
+                         "it begins at its beginning");
   }
-  const auto left = programme_.whereLeft(film_.info().duration);
+  const auto left = programme_.whereLeft(length);
   if (!left) return;
   log(LogLevel::Info, "play", "resumes at %.1f s, where it was left", toSeconds(*left));
   seek(*left, PlayerEvent::Seek, false, now);

@@ -40,6 +40,22 @@ TEST_F(PlayerLists, AListIsPlayedFromItsFirstFilmToItsLast) {
   EXPECT_THAT(bench_.report.faults, IsEmpty());
 }
 
+TEST_F(PlayerLists, AStartIsOfTheFirstFilmAloneAlsoIfItCannotBePlayed) {
+  bench_.sources["other"] = PlayerBench::film(50);
+  bench_.sources.erase("film");
+  bench_.config.more = {"other"};
+  bench_.config.start = mediaTime(1);
+  playsAllBut("film");
+  EXPECT_EQ(bench_.report.frames_shown, 50u);
+}
+
+TEST_F(PlayerLists, AStartBehindTheEndIsPassedOverWithALine) {
+  bench_.config.start = mediaTime(60);
+  playsWell();
+  EXPECT_EQ(bench_.report.frames_shown, 100u);
+  EXPECT_EQ(bench_.faults("the film ends at 4.0 s, before 60.0 s"), 1u);
+}
+
 TEST_F(PlayerLists, AListOnLoopBeginsAgain) {
   aList();
   bench_.config.loop = true;
