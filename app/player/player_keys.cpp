@@ -21,6 +21,11 @@ bool isForAnotherTime(const PlayerCommand& command, PlayerState state) noexcept 
   return state == PlayerState::Browsing && needsFilm(command.verb);
 }
 
+// A held key that does so waits until the picture of the last seek has been shown: else none would be.
+bool leavesPicture(PlayerVerb verb) noexcept {
+  return verb == PlayerVerb::SeekBy || verb == PlayerVerb::StepBack || verb == PlayerVerb::Step;
+}
+
 // Pages of keys that a key turns by; 0: it is none of these.
 int pagesBy(std::uint16_t code) noexcept {
   constexpr std::array<std::uint16_t, 6> kOn{KEY_DOWN, KEY_RIGHT, KEY_PAGEDOWN, BTN_DPAD_DOWN, BTN_DPAD_RIGHT, BTN_TR};
@@ -62,6 +67,8 @@ void Player::readRemote(MonotonicTime now) {
     }
     if (!*key) break;
     const auto command = keys_.take(**key, state_);
+    const bool again = command && (*key)->action == KeyEvent::Action::Repeat;
+    if (again && film_.isSeeking() && leavesPicture(command->verb)) continue;
     if (command && !isForAnotherTime(*command, state_)) obeyKey(*command, (*key)->code, now);
     else noteUnbound(**key, now);
   }
@@ -98,12 +105,12 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   return share || button;
 }
 
-// While one seek is under way the mouse may move on; its last position is used.
+// Until a seek has shown its picture the mouse may move on; its last position is used.
 void Player::followMouse(MonotonicTime now) {
   constexpr double kLouder = 5;  // percent a notch of the wheel
   if (const int notches = mouse_.takeNotches(); notches != 0) obey({PlayerVerb::VolumeBy, kLouder * notches}, now);
   if (const auto verb = mouse_.takeClick()) obey({*verb}, now);
-  if (state_ == PlayerState::Seeking) return;
+  if (film_.isSeeking()) return;
   if (const auto share = mouse_.takeDrag()) obey({PlayerVerb::SeekShare, *share}, now);
 }
 

@@ -81,6 +81,8 @@ class FilmPlayback {
 
   // Continues from `target`; by key frames at a rate over 1.
   void seek(MediaTime target, MonotonicTime now);
+  // The first picture after a seek has not been shown yet.
+  [[nodiscard]] bool isSeeking() const noexcept { return target_.has_value(); }
   // True when the seek has been carried out or refused. After a refusal the film continues from where it is, at rate 1.
   [[nodiscard]] bool arriving(MonotonicTime now);
   // After Over: not one picture came since the film was opened, or since the seek to its beginning.

@@ -251,6 +251,33 @@ TEST_F(PlayerTransport, OfALiveSourceThereIsNoShare) {
   EXPECT_THAT(bench_.report.seeks, IsEmpty());
 }
 
+// Gives ten repeats of a key at once, after a second.
+class HeldKey final : public RemoteInput {
+ public:
+  explicit HeldKey(Clock& clock) : from_(clock.now() + std::chrono::seconds(1)) {}
+
+ private:
+  Result<void> openRemote() override { return {}; }
+  Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
+    if (now < from_ || left_ == 0) return std::nullopt;
+    --left_;
+    return KeyEvent{KEY_RIGHT, KeyEvent::Action::Repeat, now};
+  }
+  void closeRemote() noexcept override {}
+
+  MonotonicTime from_;
+  int left_ = 10;
+};
+
+TEST_F(PlayerTransport, AHeldKeySeeksOnOnlyWhenItsPictureHasBeenShown) {
+  bench_.sources["film"] = PlayerBench::film(1000);  // 40 s
+  bench_.config.duration = std::chrono::seconds(3);
+  bench_.make_remote = [](Clock& clock) { return std::make_unique<HeldKey>(clock); };
+  playsWell();
+  ASSERT_THAT(bench_.report.seeks, SizeIs(1));
+  EXPECT_NEAR(bench_.report.seeks[0].picture_s.value_or(-1), 6.0, 0.1);
+}
+
 TEST_F(PlayerTransport, AHeldOkIsInfoAndAShortOnePauses) {
   bench_.press(1.0, KEY_OK, 2.0);
   bench_.press(3.5, KEY_ENTER, 0.1);
