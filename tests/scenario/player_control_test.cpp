@@ -283,8 +283,8 @@ TEST_F(PlayerAndPrograms, APartWithinAPictureIsNotRepeated) {
   at(5.5, "ab-loop");
   at(6.8, "ab-loop");
   play();
-  const std::string again = " seeking buffering playing";
-  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing" + again + again + again + again + " ended idle");
+  const std::string again = " seeking buffering playing", thrice = again + again + again;
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing" + thrice + thrice + " ended idle");
 }
 
 TEST_F(PlayerAndPrograms, AFilmThatAListMayNotNameIsPassedOver) {

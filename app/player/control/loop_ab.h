@@ -30,9 +30,8 @@ class LoopAB {
   [[nodiscard]] std::optional<MediaTime> backFrom(std::optional<MediaTime> here) noexcept {
     const bool behind = to_ && here && *here >= *to_;
     went_back_ = behind ? went_back_ + 1 : 0;
-    const auto from = from_;
     if (went_back_ > kMostInVain) forget();
-    return behind ? from : std::nullopt;
+    return behind ? from_ : std::nullopt;
   }
 
   [[nodiscard]] std::optional<MediaTime> from() const noexcept { return from_; }
