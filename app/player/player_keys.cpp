@@ -34,11 +34,12 @@ int pagesBy(std::uint16_t code) noexcept {
   return std::ranges::find(kBack, code) != kBack.end() ? -1 : 0;
 }
 
-// Commands that need what only an open film has: pictures, a length, tracks, chapters.
-constexpr std::array kOfAnOpenFilm{PlayerVerb::Step,          PlayerVerb::StepBack,     PlayerVerb::Faster,
-                                   PlayerVerb::Slower,        PlayerVerb::NormalSpeed,  PlayerVerb::SeekShare,
-                                   PlayerVerb::AudioTrack,    PlayerVerb::ChapterBy,    PlayerVerb::LoopAB,
-                                   PlayerVerb::SubtitleTrack, PlayerVerb::ShowSubtitles};
+// Commands that need what only an open film has: pictures, a length, depth, tracks, chapters.
+constexpr std::array kOfAnOpenFilm{PlayerVerb::DepthBy,      PlayerVerb::ScreenBy,  PlayerVerb::Step,
+                                   PlayerVerb::StepBack,     PlayerVerb::Faster,    PlayerVerb::Slower,
+                                   PlayerVerb::NormalSpeed,  PlayerVerb::SeekShare, PlayerVerb::AudioTrack,
+                                   PlayerVerb::ChapterBy,    PlayerVerb::LoopAB,    PlayerVerb::SubtitleTrack,
+                                   PlayerVerb::ShowSubtitles};
 
 std::optional<std::string> trackRefusal(const PlayerCommand& command, const FilmInfo& film) {
   const bool sound = command.verb == PlayerVerb::AudioTrack;
@@ -158,10 +159,12 @@ std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
   if (state_ == PlayerState::Opening && std::ranges::any_of(kOfAnOpenFilm, is)) return "the film is still being opened";
   const bool steps = is(PlayerVerb::Step) || is(PlayerVerb::StepBack);
   if (steps && !film_.rushes() && !nextState(state_, PlayerEvent::Step)) return "there is no picture to step from yet";
+  const bool changes_relief = is(PlayerVerb::DepthBy) || is(PlayerVerb::ScreenBy);
+  if (changes_relief && !film_.info().has_depth) return "this film has no depth to change";
   if (auto why = trackRefusal(command, film_.info())) return why;
   const std::size_t film = placeOnShelf().value_or(programme_.present());
   const std::size_t films = placeOnShelf() ? browser_->shelf().size() : programme_.size();
-  if (command.verb != PlayerVerb::Next || film + 1 < films) return std::nullopt;
+  if (!is(PlayerVerb::Next) || film + 1 < films || programme_.wraps()) return std::nullopt;
   return films == 1 ? "no next film: this one is played alone" : "this is the last film of the list";
 }
 
@@ -213,6 +216,7 @@ Situation Player::situation(MonotonicTime now) const {
           .period = film_.period(),
           .film = place.value_or(programme_.present()),
           .films = place ? browser_->shelf().size() : programme_.size(),
+          .wraps = programme_.wraps(),
           .film_asked = programme_.asked()};
 }
 

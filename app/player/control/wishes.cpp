@@ -129,7 +129,8 @@ std::vector<Deed> deedsFor(const PlayerCommand& command, const Situation& s) {
     case PlayerVerb::ChapterBy:
       return seekChapter(static_cast<int>(command.value), s);
     case PlayerVerb::Next:
-      return s.film + 1 < s.films ? Deeds{open(s.film + 1)} : Deeds{};
+      if (s.film + 1 < s.films) return {open(s.film + 1)};
+      return s.wraps ? Deeds{open(0)} : Deeds{};
     case PlayerVerb::Previous:
       return previous(s);
     default:

@@ -26,6 +26,7 @@ struct Situation {
   MediaTime picture;   // time of the shown picture
   Duration period{0};  // from picture to picture
   std::size_t film = 0, films = 1;
+  bool wraps = false;       // the first film follows the last one
   bool film_asked = false;  // a film has been opened since the player started
 };
 

@@ -55,6 +55,8 @@ class Programme {
   // `begin` has been called.
   [[nodiscard]] bool asked() const noexcept { return asked_; }
   [[nodiscard]] bool loops() const noexcept { return loop_; }
+  // Several films, one after the other and from the first again.
+  [[nodiscard]] bool wraps() const noexcept { return loop_ && films_.size() > 1; }
   void setLoop(bool loop) noexcept { loop_ = loop; }
 
   // Where the viewer left the present film, whose length is `length`; nullopt if unknown or if the film has no length.

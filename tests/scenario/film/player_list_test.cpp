@@ -64,6 +64,15 @@ TEST_F(PlayerLists, AListOnLoopBeginsAgain) {
   EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a", "./b", "./c"));
 }
 
+TEST_F(PlayerLists, OnLoopTheNextOfTheLastFilmIsTheFirst) {
+  aList();
+  bench_.config.loop = true;
+  bench_.config.duration = std::chrono::seconds(5);
+  bench_.press(4.0, KEY_NEXT);  // a second into the last one
+  playsWell();
+  EXPECT_THAT(bench_.report.films, ElementsAre("./a", "./b", "./c", "./a"));
+}
+
 TEST_F(PlayerLists, OnLoopAFilmThatCannotBeSoughtIsOpenedAgain) {
   bench_.sources["film"] = PlayerBench::film(50);
   bench_.sources["film"].live = true;

@@ -176,6 +176,15 @@ TEST(Wishes, WhatTheStateDoesNotAllowIsNotEvenNoted) {
   EXPECT_EQ(asked(PlayerVerb::SeekShare, s, 0.5), "");
 }
 
+TEST(Wishes, NextOfTheLastFilmIsTheFirstWhereTheListRepeats) {
+  Situation s = playing();
+  EXPECT_EQ(asked(PlayerVerb::Next, s), "film 2");
+  s.film = 2;
+  EXPECT_EQ(asked(PlayerVerb::Next, s), "");
+  s.wraps = true;
+  EXPECT_EQ(asked(PlayerVerb::Next, s), "film 0");
+}
+
 TEST(Wishes, PreviousIsTheFilmBeforeOrThisOneFromItsBeginning) {
   Situation s = playing();
   EXPECT_EQ(asked(PlayerVerb::Previous, s), "seek 0 wished");
