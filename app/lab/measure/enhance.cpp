@@ -228,12 +228,11 @@ class Enhance {
     }
     for (const EdgeRow& r : edges_) within = r.kind == Enhancement::Dibm ? std::min(within, r.within_percent) : within;
     const SensorModel noise{plan_.noises.back(), false}, faults{plan_.noises.back(), true};
-    return {
-        "Enhancement: the force's error on depth that a camera has seen, and where its edges are",
-        print("With modified-proxy-graph dibm's error is at most 1/%.1f of none's, which on holes has no contact at "
-              "all. Of dibm's edges %.1f %% are within 1 px at worst. Errors in %% at noise of %g levels, 8 bits, "
-              "without any enhancement and with the best: %s. With salt, holes and flying pixels: %s.",
-              least_gain, within, noise.noise_levels, methodWords(noise).c_str(), methodWords(faults).c_str())};
+    return {"Enhancement: the force's error on depth that a camera has seen, and where its edges are",
+            print("With modified-proxy-graph dibm's error is at most 1/%.1f of none's. Of dibm's edges %.1f %% are "
+                  "within 1 px at worst. Errors in %% at noise of %g levels, 8 bits, "
+                  "without any enhancement and with the best: %s. With salt, holes and flying pixels: %s.",
+                  least_gain, within, noise.noise_levels, methodWords(noise).c_str(), methodWords(faults).c_str())};
   }
 
   const MeasureOptions& options_;
