@@ -9,6 +9,8 @@
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
+#include "app/scene/color_shares.h"
+#include "hal/media/samples.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -31,23 +33,6 @@ constexpr double kLeastSpread = 0.03;  // a half of one brightness is not depth
 constexpr double kMostDark = 0.95;
 
 using Color = PictureColor;
-
-double sampleOf(const Frame& f, int component, int c, int r) noexcept {
-  const Component& k = f.components[static_cast<std::size_t>(component)];
-  const Plane& plane = f.planes[k.plane];
-  const std::uint8_t* at = plane.data + r * plane.stride_bytes + k.offset_bytes + std::ptrdiff_t{c} * k.step_bytes;
-  return static_cast<double>(codeAt(k, at)) / ((1u << k.bits) - 1);
-}
-
-Color fromYuv(double y, double u, double v, const Frame& f) noexcept {
-  const bool full = f.range == ColorRange::Full;
-  y = full ? y : (255 * y - 16) / 219;
-  const double cb = full ? u - 0.5 : (255 * u - 128) / 224, cr = full ? v - 0.5 : (255 * v - 128) / 224;
-  const auto [kr, kb] = lumaWeights(f);
-  const double red = y + 2 * (1 - kr) * cr, blue = y + 2 * (1 - kb) * cb;
-  const double green = (y - kr * red - kb * blue) / (1 - kr - kb);
-  return {std::clamp(red, 0.0, 1.0), std::clamp(green, 0.0, 1.0), std::clamp(blue, 0.0, 1.0)};
-}
 
 // Visits the (column, row) of each examined sample.
 template <class Visit>
@@ -125,13 +110,12 @@ bool isParted(const Frame& colored) {
 }  // namespace
 
 PictureColor colorAt(const Frame& f, int c, int r) noexcept {
-  if (f.model == ColorModel::Gray) {
-    const double y = sampleOf(f, 0, c, r);
+  if (f.model == ColorModel::Gray) {  // its codes may be depth of any range
+    const double y = static_cast<double>(codeAt(f, f.components[0], c, r)) / ((1U << f.components[0].bits) - 1);
     return {y, y, y};
   }
-  if (f.model == ColorModel::Rgb) return {sampleOf(f, 0, c, r), sampleOf(f, 1, c, r), sampleOf(f, 2, c, r)};
-  const int cc = c >> f.chroma_shift_x, cr = r >> f.chroma_shift_y;
-  return fromYuv(sampleOf(f, 0, c, r), sampleOf(f, 1, cc, cr), sampleOf(f, 2, cc, cr), f);
+  const auto [red, green, blue] = ColorShares(f).at(c, r);
+  return {std::clamp(red, 0.0, 1.0), std::clamp(green, 0.0, 1.0), std::clamp(blue, 0.0, 1.0)};
 }
 
 PictureLook lookAt(const Frame& picture) noexcept {
