@@ -6,26 +6,23 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "drivers/photo/photo.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 
 namespace relievo {
 namespace {
 
+using test::contentOf;
+
 constexpr int kCols = 48, kRows = 32;
 constexpr double kNear = 0.5, kFar = 4.0;  // metres
 
 double metresAt(int, int r) {
   return 0.6 + 0.1 * r;
-}
-
-std::string contentOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 std::string picture(const std::string& name, const std::string& codec, const std::string& format,

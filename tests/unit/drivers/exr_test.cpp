@@ -13,16 +13,18 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <limits>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 
 namespace relievo {
 namespace {
+
+using test::write;
 
 constexpr int kCols = 40, kRows = 30;
 
@@ -102,10 +104,6 @@ std::string exr(const std::vector<Channel>& channels, const Window& data = {}, c
     lines += number(static_cast<std::uint32_t>(y)) + number(static_cast<std::uint32_t>(line.size())) + line;
   }
   return file + offsets + lines;
-}
-
-void write(const std::string& path, const std::string& content) {
-  std::ofstream(path, std::ios::binary) << content;
 }
 
 // Depth as metresAt says, with holes where it is 0.

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
@@ -20,6 +20,7 @@ using test::ClipTrack;
 using test::distanceMm;
 using test::kSceneCols;
 using test::kSceneRows;
+using test::write;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -39,9 +40,6 @@ double disparityAt(int c, int r) {
   return mm == 0 ? 0 : kBaseline * kFocal / mm - kOffset;
 }
 
-void write(const std::string& path, const std::string& text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
 // Rows from the bottom up; a negative scale says little endian.
 void writePfm(const std::string& path, double size) {
   std::string bytes = "Pf\n160 108\n-1\n";

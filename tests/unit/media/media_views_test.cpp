@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
@@ -16,8 +15,10 @@ namespace relievo {
 namespace {
 
 using test::ClipTrack;
+using test::contentOf;
 using test::kSceneCols;
 using test::kSceneRows;
+using test::write;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -40,13 +41,6 @@ ClipTrack halves(bool beside, const std::string& codec) {
   return track;
 }
 
-std::string contentOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 std::string number(std::size_t value, int bytes, bool high_first = true) {
   std::string text;
   for (int i = bytes - 1; i >= 0; --i) text += static_cast<char>(value >> (8 * i) & 0xff);

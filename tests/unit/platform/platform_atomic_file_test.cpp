@@ -13,27 +13,23 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "platform/atomic_file.h"
 #include "platform/files/litter.h"
 #include "platform/unique_fd.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {
+
+using test::contentOf;
 
 namespace fs = std::filesystem;
 
 class AtomicFileTest : public testing::Test {
  protected:
   [[nodiscard]] std::string at(const char* name) const { return folder_ / name; }
-  static std::string textOf(const std::string& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
   [[nodiscard]] std::ptrdiff_t filesInFolder() const {
     return std::distance(fs::directory_iterator(at("")), fs::directory_iterator{});
   }
@@ -48,7 +44,7 @@ TEST_F(AtomicFileTest, AppearsWithItsWholeTextOnCommit) {
   file->write("two");
   EXPECT_FALSE(fs::exists(at("a.json")));
   ASSERT_TRUE(file->commit());
-  EXPECT_EQ(textOf(at("a.json")), "one two");
+  EXPECT_EQ(contentOf(at("a.json")), "one two");
   EXPECT_EQ(filesInFolder(), 1);
 }
 
@@ -59,7 +55,7 @@ TEST_F(AtomicFileTest, LeavesNothingAndTouchesNothingWithoutACommit) {
     ASSERT_TRUE(file);
     file->write("new");
   }
-  EXPECT_EQ(textOf(at("a.json")), "old");
+  EXPECT_EQ(contentOf(at("a.json")), "old");
   EXPECT_EQ(filesInFolder(), 1);
 }
 
@@ -70,7 +66,7 @@ TEST_F(AtomicFileTest, ReplacesAFileAndKeepsItsMode) {
   ASSERT_TRUE(file);
   file->write("new");
   ASSERT_TRUE(file->commit());
-  EXPECT_EQ(textOf(at("a.json")), "new");
+  EXPECT_EQ(contentOf(at("a.json")), "new");
   struct stat status{};
   ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0640u);
@@ -84,7 +80,7 @@ TEST_F(AtomicFileTest, WritesWhereALinkPointsAndLeavesTheLink) {
   file->write("new");
   ASSERT_TRUE(file->commit());
   EXPECT_TRUE(fs::is_symlink(at("link.json")));
-  EXPECT_EQ(textOf(at("real.json")), "new");
+  EXPECT_EQ(contentOf(at("real.json")), "new");
 }
 
 TEST_F(AtomicFileTest, WritesWhereALinkPointsThatHasNoFileYet) {
@@ -96,7 +92,7 @@ TEST_F(AtomicFileTest, WritesWhereALinkPointsThatHasNoFileYet) {
   file->write("new");
   ASSERT_TRUE(file->commit());
   EXPECT_TRUE(fs::is_symlink(at("first.json")) && fs::is_symlink(at("elsewhere/second.json")));
-  EXPECT_EQ(textOf(at("elsewhere/real.json")), "new");
+  EXPECT_EQ(contentOf(at("elsewhere/real.json")), "new");
   EXPECT_EQ(placeOf(at("first.json")), fs::canonical(at("elsewhere/real.json")).string());
 }
 
@@ -132,7 +128,7 @@ TEST_F(AtomicFileTest, ReplacesAFileOfTheLongestName) {
   ASSERT_TRUE(file);
   file->write("new");
   ASSERT_TRUE(file->commit());
-  EXPECT_EQ(textOf(path), "new");
+  EXPECT_EQ(contentOf(path), "new");
   EXPECT_EQ(filesInFolder(), 1);
 }
 
@@ -169,9 +165,9 @@ TEST_F(AtomicFileTest, AnotherWriterMayFillItAtPlacesOfItsOwn) {
   std::array<std::uint8_t, 8> whole{};
   EXPECT_EQ(file->output().read(1, whole), 2u);
   EXPECT_EQ(whole[1], 'w');
-  EXPECT_EQ(textOf(at("film.mkv")), "old");
+  EXPECT_EQ(contentOf(at("film.mkv")), "old");
   ASSERT_TRUE(file->commit());
-  EXPECT_EQ(textOf(at("film.mkv")), "new");
+  EXPECT_EQ(contentOf(at("film.mkv")), "new");
   EXPECT_EQ(filesInFolder(), 1);
 }
 
@@ -184,7 +180,7 @@ TEST_F(AtomicFileTest, HasNoNameUntilTheCommit) {
   file->write("new");
   EXPECT_EQ(filesInFolder(), 0);
   ASSERT_TRUE(file->commit());
-  EXPECT_EQ(textOf(at("a.json")), "new");
+  EXPECT_EQ(contentOf(at("a.json")), "new");
   struct stat status{};
   ASSERT_EQ(::stat(at("a.json").c_str(), &status), 0);
   const mode_t mask = ::umask(0);
@@ -202,7 +198,7 @@ TEST_F(AtomicFileTest, OfTwoWritersThatReplaceNothingTheFirstOneWins) {
   const auto late = second->commit();
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message, testing::HasSubstr("another program created this file meanwhile"));
-  EXPECT_EQ(textOf(at("a.json")), "first");
+  EXPECT_EQ(contentOf(at("a.json")), "first");
   EXPECT_EQ(filesInFolder(), 1);
 }
 
