@@ -188,9 +188,7 @@ RenderStatistics SceneRenderer::statistics() const noexcept {
                           .imported = impl.picture.isImported(),
                           .size = impl.level.size(),
                           .frame_ms = toSeconds(impl.drawing.value()) * 1e3,
-                          .words_px = impl.words.place().disparity(),
-                          .behind_words_px = impl.words.place().behind(),
-                          .words_lifted = impl.words.place().lifted()};
+                          .behind_words_px = impl.words.place().behind()};
   if (impl.depth.empty()) return result;
   result.triangles = impl.relief.triangles().indices().size() / 3;
   result.cut_cells = impl.relief.triangles().cutCells();

@@ -39,9 +39,7 @@ struct RenderStatistics {
   double size = 1;             // share of a view's width and height in which it is drawn; below 1 the view is stretched
   double mesh_ms = 0;          // making the triangles of one picture; moving average
   double frame_ms = 0;         // drawing one frame with all views, making the triangles included; moving average
-  double words_px = 0;         // disparity of the subtitles; see WordsPlace
-  double behind_words_px = 0;  // disparity of the nearest relief under them
-  std::uint64_t words_lifted = 0;
+  double behind_words_px = 0;  // disparity of the nearest relief under the subtitles; see WordsPlace
 };
 
 // All functions, and the destructor, run on the thread of the display's GL context, between its beginFrame and present.
