@@ -113,6 +113,19 @@ bool isDigit(std::uint16_t code) noexcept {
   return code >= KEY_NUMERIC_0 && code <= KEY_NUMERIC_9;
 }
 
+// "OK", "Channel +", "Red"; for a key that only keyboards have, its keyboard label. A key without a label is called by
+// its name, "Favorites".
+std::string remoteLabel(std::uint16_t code) {
+  if (isDigit(code)) return std::to_string(code - KEY_NUMERIC_0);
+  if (const auto label = find(kOnRemotes, code); !label.empty()) return std::string(label);
+  if (std::string label = keyboardLabel(code); !label.empty()) return label;
+  std::string name = keyName(code);
+  for (std::size_t i = 1; i < name.size(); ++i) {
+    name[i] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
+  }
+  return name;
+}
+
 }  // namespace
 
 std::string keyboardLabel(std::uint16_t code) {
@@ -134,18 +147,6 @@ std::string padLabel(std::uint16_t code) {
 bool isOnRemotes(std::uint16_t code) noexcept {
   if (isPadButton(code)) return false;
   return isDigit(code) || !find(kOnRemotes, code).empty() || keyboardLabel(code).empty();
-}
-
-// A key without a label is called by its name, "Favorites".
-std::string remoteLabel(std::uint16_t code) {
-  if (isDigit(code)) return std::to_string(code - KEY_NUMERIC_0);
-  if (const auto label = find(kOnRemotes, code); !label.empty()) return std::string(label);
-  if (std::string label = keyboardLabel(code); !label.empty()) return label;
-  std::string name = keyName(code);
-  for (std::size_t i = 1; i < name.size(); ++i) {
-    name[i] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[i])));
-  }
-  return name;
 }
 
 std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool touches) {

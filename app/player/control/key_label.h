@@ -15,8 +15,6 @@ enum class KeyBoard : std::uint8_t { Keyboard, Remote, Pad };
 // What is printed on a keyboard's key, or typed for it: "f", "]", "Enter", "Page Up". Empty for a key that only remote
 // controls have.
 [[nodiscard]] std::string keyboardLabel(std::uint16_t code);
-// "OK", "Channel +", "Red"; for a key that only keyboards have, its keyboard label.
-[[nodiscard]] std::string remoteLabel(std::uint16_t code);
 // "Pad A or Cross", "Pad Left"; empty for a key that gamepads do not have. Names of Xbox and PlayStation.
 [[nodiscard]] std::string padLabel(std::uint16_t code);
 // True if remote controls have the key.
