@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/chart/gnuplot.h"
 #include "app/lab/measure/measurement.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
@@ -19,11 +19,6 @@ namespace {
 
 bool haveGnuplot() {
   return runGnuplot("set terminal dumb\nplot x\n", {}).has_value();
-}
-
-std::string textOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Gnuplot, DrawsWhatTheScriptSaysWithItsArguments) {
@@ -62,7 +57,7 @@ TEST(Chart, CarriesItsTitleAndReading) {
   const ChartWords words{"A < B & \"C\"", std::string(200, 'x') + " and so on, in 5 \xc2\xb5s", "R & D, 1999-12-31"};
   const auto drawn = drawChart(folder / ".", "parts", words);
   ASSERT_TRUE(drawn) << drawn.error().thing;
-  const auto read = wordsOf(textOf(folder / "parts.svg"));
+  const auto read = wordsOf(test::contentOf(folder / "parts.svg"));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->title, words.title);
   EXPECT_EQ(read->reading, words.reading);
@@ -84,7 +79,7 @@ TEST(CsvTable, WritesNumbersTextAndNothing) {
   table.row({"x y", 1.0 / 3, 4});
   table.row({"z", std::nan(""), std::size_t{7}});
   ASSERT_TRUE(table.write(folder / "t.csv"));
-  EXPECT_EQ(textOf(folder / "t.csv"), "name,a,b\nx y,0.333333,4\nz,,7\n");
+  EXPECT_EQ(test::contentOf(folder / "t.csv"), "name,a,b\nx y,0.333333,4\nz,,7\n");
   EXPECT_FALSE(table.write(folder / "missing/t.csv"));
 }
 

@@ -6,7 +6,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <string>
@@ -15,23 +14,20 @@
 #include "app/player/setup/options.h"
 #include "drivers/force/watchdog.h"
 #include "platform/cyclic_thread.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {
 
+using test::contentOf;
 using testing::Contains;
 
 const std::string kFolder = RELIEVO_SOURCE_DIR "/toolchain/service/";
 
-std::string textOf(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // What follows "key=" in the unit, line by line.
 std::vector<std::string> values(const std::string& key) {
-  std::istringstream lines(textOf(kFolder + "relievo.service"));
+  std::istringstream lines(contentOf(kFolder + "relievo.service"));
   std::vector<std::string> found;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with(key + "=")) found.push_back(line.substr(key.size() + 1));
@@ -67,27 +63,27 @@ TEST(ServiceUnit, StartsAPlayerThatWaitsOnASocketInItsOwnFolder) {
 }
 
 TEST(ServiceUnit, ItsUserIsTheOneThatSysusersMakes) {
-  EXPECT_THAT(textOf(kFolder + "relievo.sysusers"), testing::HasSubstr("\nu " + values("User").at(0) + " "));
+  EXPECT_THAT(contentOf(kFolder + "relievo.sysusers"), testing::HasSubstr("\nu " + values("User").at(0) + " "));
   EXPECT_THAT(values("Type"), Contains("notify"));
 }
 
 TEST(ServiceUnit, SystemdTakesItAndFindsItWellGuarded) {
   if (std::system("systemd-analyze --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "there is no systemd-analyze";
   const test::TemporaryFolder folder;
-  std::string unit = textOf(kFolder + "relievo.service");
+  std::string unit = contentOf(kFolder + "relievo.service");
   const std::string installed = "/usr/bin/relievo";  // a program that is there for sure
   for (std::size_t at = unit.find(installed); at != std::string::npos; at = unit.find(installed, at)) {
     unit.replace(at, installed.size(), "/bin/true");
   }
   std::ofstream(folder / "relievo.service") << unit;
   const std::string file = folder / "relievo.service", said = folder / "said.txt";
-  EXPECT_EQ(std::system(("systemd-analyze verify " + file + " >" + said + " 2>&1").c_str()), 0) << textOf(said);
-  EXPECT_EQ(textOf(said), "");
+  EXPECT_EQ(std::system(("systemd-analyze verify " + file + " >" + said + " 2>&1").c_str()), 0) << contentOf(said);
+  EXPECT_EQ(contentOf(said), "");
   // Of 10, lower is better.
   EXPECT_EQ(
       std::system(("systemd-analyze security --offline=true --threshold=20 " + file + " >" + said + " 2>&1").c_str()),
       0)
-      << textOf(said);
+      << contentOf(said);
 }
 
 }  // namespace
