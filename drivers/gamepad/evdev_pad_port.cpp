@@ -26,6 +26,11 @@ constexpr const char* kNoPad =
 
 constexpr const char* kTaken = "the gamepad is already a finger; plug in another one, or leave one --haptic out";
 
+// By its buttons, which sysfs shows to everybody; of other devices it does not matter that they may not be opened.
+bool mayBePad(const std::string& path) {
+  return mayHaveKey(path, BTN_GAMEPAD) || mayHaveKey(path, BTN_JOYSTICK) || mayHaveKey(path, BTN_WHEEL);
+}
+
 struct Opened {
   UniqueFd fd;
   int error = 0;  // errno, if it is not open
@@ -125,7 +130,7 @@ class EvdevPadPort final : public PadPort {
     bool refused = false;
     for (const EventNode& node : listEventNodes()) {
       Opened opened = openNode(node.path);
-      refused = refused || opened.error == EACCES;
+      refused = refused || (opened.error == EACCES && mayBePad(node.path));
       if (auto facts = take(opened)) return std::move(*facts);
     }
     if (taken_) return fail(ErrorCode::NotFound, kTaken);
@@ -179,7 +184,7 @@ std::vector<PadSeen> lookAtGamepads() {
   bool refused = false;
   for (const EventNode& node : listEventNodes()) {
     const Opened opened = openNode(node.path);
-    refused = refused || opened.error == EACCES;
+    refused = refused || (opened.error == EACCES && mayBePad(node.path));
     const auto facts = opened.fd.valid() ? ask(opened.fd.get()) : std::nullopt;
     if (facts && isPad(*facts)) seen.push_back({node.path, true, stateOf(*facts)});
   }
