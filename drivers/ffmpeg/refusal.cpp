@@ -72,8 +72,9 @@ constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
     {"raw", kRaw},
     {"bin", kRaw},
     {"yuv",
-     "it is raw pictures without a size; convert it: ffmpeg -f rawvideo -pix_fmt yuv420p -video_size "
-     "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 film.mkv"},
+     "it is raw pictures without a size; convert it: ffmpeg -f rawvideo -pix_fmt FORMAT -video_size "
+     "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 film.mkv; size and FORMAT are often in its name, as in "
+     "depth_320x240_yuv420p16le.yuv; of 8 bits FORMAT is yuv420p, of 10 yuv420p10le, of 16 yuv420p16le"},
     {"sens", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
     {"klg", "it is a scan, which this relievo was built without; build it with -DRELIEVO_SCAN=ON"},
     {"mat", kMatlab},

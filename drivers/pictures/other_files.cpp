@@ -14,6 +14,10 @@ constexpr const char* kRos2Bag =
 constexpr const char* kRaw =
     "this folder holds raw numbers without a picture size; convert each file: ffmpeg -f rawvideo -pix_fmt gray16le "
     "-video_size WIDTHxHEIGHT -i FILE FILE.png";
+constexpr const char* kRawFilms =
+    "this folder holds raw pictures without a size; convert each file: ffmpeg -f rawvideo -pix_fmt FORMAT -video_size "
+    "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 FILE.mkv; size and FORMAT are often in its name, as in "
+    "depth_320x240_yuv420p16le.yuv; of 8 bits FORMAT is yuv420p, of 10 yuv420p10le, of 16 yuv420p16le";
 constexpr const char* kArchives =
     "this folder holds archives of arrays; convert them: python3 -c 'import glob, numpy; [numpy.save(f[:-4], "
     "numpy.load(f)[\"depth\"]) for f in glob.glob(\"FOLDER/*.npz\")]', depth being the array's name";
@@ -33,7 +37,7 @@ constexpr const char* kHypersim =
 struct Way {
   const char *ending, *line;
 };
-constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},   {"yuv", kRaw},
+constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},   {"yuv", kRawFilms},
                          {"npz", kArchives}, {"hdf5", kHdf5},    {"h5", kHdf5}, {"mat", kMatlab}};
 
 }  // namespace

@@ -117,6 +117,11 @@ TEST(OtherFiles, HypersimsDistancesBecomeDepth) {
   EXPECT_THAT(pictures::wayToConvert("frame.0000.position.hdf5"), testing::Not(testing::HasSubstr("sqrt")));
 }
 
+TEST(OtherFiles, RawPicturesAreConvertedToAFilmOfTheirOwnFormat) {
+  EXPECT_THAT(pictures::wayToConvert("v0_depth_320x240_yuv420p16le.yuv"), testing::HasSubstr("of 16 yuv420p16le"));
+  EXPECT_THAT(pictures::wayToConvert("a.raw"), testing::HasSubstr("gray16le"));
+}
+
 TEST(PictureNames, GreatNumbersCountNoPictures) {
   EXPECT_EQ(valuesOf({"9000000000.png", "1.png"}).kind, NameKind::Numbers);
   const auto great = valuesOf({"2222222222222222222.png", "1.png"});

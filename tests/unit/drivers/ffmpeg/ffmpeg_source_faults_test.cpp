@@ -130,7 +130,7 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy", "loadmat"}},
       {"a.raw", "\1\2"sv, {"without a picture size", "gray16le"}},
       {"a.bin", "\1\2"sv, {"without a picture size", "gray16le"}},
-      {"a.yuv", "\1\2"sv, {"without a size", "yuv420p"}},
+      {"a.yuv", "\1\2"sv, {"without a size", "its name", "of 8 bits FORMAT is yuv420p,", "of 16 yuv420p16le"}},
       {"a.csv", "1.2,1.3\n"sv, {"table", "numpy.loadtxt"}},
       {"a.pth", "PK\3\4"sv, {"PyTorch", "torch.load"}},
       {"a.yml", "%YAML:1.0"sv, {"OpenCV", "FileStorage"}},
