@@ -126,6 +126,7 @@ const CLI::Option* withoutValue(const CLI::App& command, std::span<const char* c
   };
   for (std::size_t i = 1; i < words.size(); ++i) {
     const std::string word(words[i]), name = word.substr(0, word.find('='));
+    if (word == "--") break;  // films follow, whatever their names
     if (!word.empty() && std::ranges::find(names, name) == names.end()) continue;
     const CLI::Option* option = taking(words[i - 1]);
     if (option == nullptr && word == name + "=") option = taking(name);

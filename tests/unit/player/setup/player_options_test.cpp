@@ -20,6 +20,7 @@ TEST(Options, AFirstWordThatIsNoCommandIsAFilm) {
   EXPECT_EQ(parse({"--loop", "film.mkv"}).options->play.player.loop, true);
   EXPECT_EQ(parse({"./play"}).options->play.player.source.url, "./play");
   EXPECT_EQ(parse({"probe", "film.mkv"}).options->command, Options::Command::Probe);
+  EXPECT_EQ(parse({"--", "--report", "--loop"}).options->play.player.source.url, "--report");
   const Parsed three = parse({"a.mkv", "b.m3u", "--loop", "films/"});
   ASSERT_TRUE(three.options) << three.err;
   EXPECT_EQ(three.options->play.player.source.url, "a.mkv");
