@@ -234,10 +234,10 @@ std::string tellColored(const std::vector<Figures>& all, const Plan& plan) {
     if (f.coding.steps < DepthSteps::Hue) continue;
     const double rate = kbitPerSecond(f, plan);
     text += print("%s%s at crf %d %.2g %% at %.0f kbit/s (brightness %.2g %%)",
-                  text.empty() ? " In colours, 4:2:0: " : "; ", name(f.coding.steps), f.coding.crf,
+                  text.empty() ? " In colours, 4:2:0 tuned for the eye: " : "; ", name(f.coding.steps), f.coding.crf,
                   f.force.result().rms_percent, rate, evenPercentAt(rate, all, plan));
   }
-  return text + ".";
+  return text + "; brightness is tuned for touch.";
 }
 
 ChartWords wordsOf(const std::vector<Figures>& all, const std::vector<TimedSteps>& timed, const Plan& plan) {
