@@ -11,11 +11,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <random>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/damage.h"
 #include "tests/support/film/recording/bag_writer.h"
@@ -27,6 +27,9 @@
 namespace relievo {
 namespace {
 
+using test::contentOf;
+using test::write;
+
 int filesOfAKind() {
   const char* const wanted = std::getenv("RELIEVO_DAMAGED");
   return wanted != nullptr ? std::atoi(wanted) : 8;
@@ -35,13 +38,6 @@ constexpr rlim_t kMostCpuS = 10;
 constexpr long kMostKb = 512 * 1024;
 constexpr int kCols = 32, kRows = 24;
 
-std::string contentOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream(path, std::ios::binary) << bytes;
-}
 template <class T>
 std::string raw(T value) {
   std::string bytes(sizeof value, '\0');

@@ -4,13 +4,12 @@
 #include <linux/input-event-codes.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/player/touch/recorder.h"
 #include "drivers/sim/profiles.h"
 #include "tests/scenario/player_bench.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 
 namespace relievo {
@@ -66,11 +65,7 @@ class TwoFingers : public testing::Test {
     EXPECT_TRUE(recorder->finish() && second_recorder->finish());
     return {textOf("first.csv"), textOf("second.csv"), bench.report};
   }
-  [[nodiscard]] std::string textOf(const char* name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    return text.str();
-  }
+  [[nodiscard]] std::string textOf(const char* name) const { return test::contentOf(folder_ / name); }
   static std::uint64_t faults(const PlayReport& report, const std::string& what) {
     std::uint64_t count = 0;
     for (const FaultEntry& fault : report.faults) count += fault.what == what ? fault.count : 0;

@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/program.h"
 
@@ -34,12 +34,7 @@ class PlayerProgram : public testing::Test {
     return runProgram("relievo play --display " + display + " " + words, at(""));
   }
   [[nodiscard]] std::string at(const std::string& name) const { return folder_ / name; }
-  [[nodiscard]] std::string textOf(const std::string& name) const {
-    const std::ifstream file(at(name));
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  [[nodiscard]] std::string textOf(const std::string& name) const { return contentOf(at(name)); }
   [[nodiscard]] json reportOf(const std::string& name) const { return json::parse(textOf(name), nullptr, false); }
   // Nothing is left but what the test itself put there and what the program said.
   void expectNothingLeft(const std::vector<std::string>& put) const {
