@@ -12,6 +12,7 @@
 #include "app/scene/color_curve.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/player_bench.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/damage.h"
 #include "tests/support/machine/sanitizers.h"
@@ -23,11 +24,6 @@ constexpr int kFilesOfAKind = 125;
 constexpr rlim_t kMostCpuS = 5;
 constexpr long kMostKb = 512 * 1024;
 constexpr int kPlayed = 10, kRefused = 11;
-
-std::string bytesOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // Exit status of the process that played `film`, and its peak memory.
 struct End {
@@ -65,7 +61,7 @@ TEST_P(HostileFiles, PlayOrFailCleanly) {
   const std::string codec = std::string(GetParam()) == "webm" ? "libvpx" : "libx264";
   const test::ClipTrack track{.codec = codec, .pix_fmt = "yuv420p", .width = 64, .height = 48, .frames = 40};
   test::makeClip(whole, {track, track});
-  const std::string bytes = bytesOf(whole);
+  const std::string bytes = test::contentOf(whole);
   for (const DepthCode code : kDepthCodes) static_cast<void>(curveOf(code));  // here, or each process makes them
   ASSERT_EQ(WEXITSTATUS(playApart(whole).status), kPlayed);
 

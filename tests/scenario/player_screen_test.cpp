@@ -4,13 +4,12 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "platform/clock.h"
 #include "tests/support/device/uinput_remote.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/control_client.h"
 #include "tests/support/machine/guest_screen.h"
@@ -39,12 +38,7 @@ class PlayerScreen : public testing::Test {
                      .sample = [](int, int, int, int) { return 128U; },
                      .tags = {{"title", "depth"}}}});
   }
-  [[nodiscard]] std::string textOf(const std::string& name) const {
-    const std::ifstream file(folder_ / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
+  [[nodiscard]] std::string textOf(const std::string& name) const { return test::contentOf(folder_ / name); }
   void wait(Duration time) { clock_.sleepUntil(clock_.now() + time); }
   // There is no time limit: while the player waits for the host to read its files, the guest's clock runs as fast as it
   // can. If the player never gets there, the whole guest is stopped from outside.
