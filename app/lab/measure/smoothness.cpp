@@ -27,7 +27,7 @@ constexpr double kPeakHalfWidthHz = 2;  // the scene's own movements are sideban
 
 struct CurveKind {
   const char* contender;
-  const char* hold;  // the curve that its peak is compared with: a similar surface, with the frame held
+  const char* hold;  // the curve that its peak is compared with: the same or a similar surface, with the frame held
 };
 constexpr std::array kCurves{
     CurveKind{"relievo", "relievo hold"},
@@ -39,7 +39,8 @@ constexpr std::array kCurves{
     CurveKind{"modified hold", "modified hold"},
     CurveKind{"proxy-blend", "modified hold"},
     CurveKind{"proxy-graph", "modified hold"},
-    CurveKind{"god-object", "modified hold"},
+    CurveKind{"god-object", "god-object hold"},
+    CurveKind{"god-object hold", "god-object hold"},
     CurveKind{"god-object-smoothed", "relievo hold"},
 };
 
@@ -207,7 +208,7 @@ class Smoothness {
     }
     return {"The peak at the frame rate against the error of the force",
             "15 frames/s, 8 bits, finger held at a point. How far each peak lies below that of holding the frame on "
-            "the same surface, and with what error of the force: " +
+            "the same surface (of god-object-smoothed: on a similar one), and with what error of the force: " +
                 reading + "." + lostWords(setting)};
   }
 

@@ -33,11 +33,11 @@ LEGEND = "set lmargin at screen 0.02; set rmargin at screen 0.98; set tmargin at
 END_LEGEND = "unset key; unset label 1; set border; set tics; set autoscale"
 # The curves of the smoothness charts, those that are drawn first lie below; the frames ahead that each looks. A script
 # keeps those that have contact anywhere: CURVE[1 .. CURVE_COUNT].
-ALL_CURVES = '"relievo hold" "modified hold" "proxy-blend" "proxy-graph" "modified-proxy-graph" "god-object" "god-object-smoothed" "relievo linear" "relievo bspline" "relievo fitted" "relievo"'
-ALL_TINTS = "#8a8f98 #c2a878 #8e5cc2 #7cb342 #e08e0b #1e88e5 #00897b #f48fb1 #26c6da #5d4db3 #d81b60"
-ALL_AHEAD = '"" "" "" "" ", 1 ahead" ", 1 ahead" ", 1 ahead" ", 1 ahead" ", 2 ahead" ", 3 ahead" ", by plan"'
-array CURVE[11]
-array TINT[11]
-array AHEAD[11]
+ALL_CURVES = '"relievo hold" "modified hold" "god-object hold" "proxy-blend" "proxy-graph" "modified-proxy-graph" "god-object" "god-object-smoothed" "relievo linear" "relievo bspline" "relievo fitted" "relievo"'
+ALL_TINTS = "#8a8f98 #c2a878 #90caf9 #8e5cc2 #7cb342 #e08e0b #1e88e5 #00897b #f48fb1 #26c6da #5d4db3 #d81b60"
+ALL_AHEAD = '"" "" "" "" "" ", 1 ahead" ", 1 ahead" ", 1 ahead" ", 1 ahead" ", 2 ahead" ", 3 ahead" ", by plan"'
+array CURVE[12]
+array TINT[12]
+array AHEAD[12]
 CURVE_COUNT = 0
 keep(c) = (CURVE_COUNT = CURVE_COUNT + 1, CURVE[CURVE_COUNT] = word(ALL_CURVES, c), TINT[CURVE_COUNT] = word(ALL_TINTS, c), AHEAD[CURVE_COUNT] = word(ALL_AHEAD, c), 1)
