@@ -34,6 +34,13 @@ inline std::vector<std::string> cellsOf(const std::string& line) {
   return cells;
 }
 
+// A figure that is not a number is an empty cell.
+inline double numberIn(const CsvRow& row, const std::string& column) {
+  const std::string& cell = row.at(column);
+  EXPECT_FALSE(cell.empty()) << column;
+  return cell.empty() ? std::nan("") : std::strtod(cell.c_str(), nullptr);
+}
+
 class Csv {
  public:
   explicit Csv(const std::string& path) {
@@ -61,7 +68,7 @@ class Csv {
       ++count;
     }
     EXPECT_EQ(count, 1) << column;
-    return found == nullptr ? std::nan("") : std::strtod(found->at(column).c_str(), nullptr);
+    return found == nullptr ? std::nan("") : numberIn(*found, column);
   }
   [[nodiscard]] const std::vector<CsvRow>& rows() const { return rows_; }
 

@@ -17,7 +17,7 @@ TEST_F(LabCharts, WhereContactWasLostItIsMarkedSo) {
   int lost = 0;
   for (const CsvRow& row : all.rows()) {
     if (row.at("lost_ticks").empty() || row.at("contact_lost").empty()) continue;
-    const auto number = [&](const char* name) { return std::strtod(row.at(name).c_str(), nullptr); };
+    const auto number = [&](const char* name) { return numberIn(row, name); };
     EXPECT_EQ(row.at("contact_lost") == "1", number("lost_ticks") > std::floor(number("judged_ticks") / 100));
     lost += row.at("contact_lost") == "1" ? 1 : 0;
     if (row.at("scene") != "all" || row.at("depth") != "8-bit") continue;
@@ -71,7 +71,7 @@ TEST_F(LabCharts, NoOneWidthForTheWholePictureIsAsExact) {
   std::map<std::string, double> own, best;
   const Csv widths(out("widths.csv"));
   for (const CsvRow& row : widths.rows()) {
-    const double percent = std::strtod(row.at("worst_percent").c_str(), nullptr);
+    const double percent = numberIn(row, "worst_percent");
     double& least = (row.at("order") == "0" ? own : best).try_emplace(row.at("depth"), percent).first->second;
     least = std::min(least, percent);
   }
@@ -103,7 +103,7 @@ TEST_F(LabCharts, EveryTimedRowHasItsTimesInOrder) {
   const Csv csv(out("tick-time.csv"));
   ASSERT_FALSE(csv.rows().empty());
   for (const CsvRow& row : csv.rows()) {
-    const auto number = [&](const char* name) { return std::strtod(row.at(name).c_str(), nullptr); };
+    const auto number = [&](const char* name) { return numberIn(row, name); };
     EXPECT_GT(number("update_median_us"), 0) << row.at("method");
     EXPECT_LE(number("update_median_us"), number("update_p99_us"));
     EXPECT_LE(number("update_p99_us"), number("update_p999_us"));
@@ -132,6 +132,8 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
           (rate == std::string_view("30") ? 1.2 : 1.05) * value("relievo linear", finger, rate, "force_rms_percent"))
           << finger << rate;
       EXPECT_EQ(value("relievo hold", finger, rate, "under_hold_db"), 0);
+      EXPECT_EQ(value("god-object", finger, rate, "under_hold_db"),
+                value("god-object hold", finger, rate, "peak_db") - value("god-object", finger, rate, "peak_db"));
     }
   }
   EXPECT_NEAR(value("relievo linear", "fixed point", "15", "under_hold_db"), 26, 3);
