@@ -132,8 +132,9 @@ TEST_F(LabCharts, HoldingTheFramePeaksAtTheFrameRateFarOverInterpolation) {
           (rate == std::string_view("30") ? 1.2 : 1.05) * value("relievo linear", finger, rate, "force_rms_percent"))
           << finger << rate;
       EXPECT_EQ(value("relievo hold", finger, rate, "under_hold_db"), 0);
-      EXPECT_EQ(value("god-object", finger, rate, "under_hold_db"),
-                value("god-object hold", finger, rate, "peak_db") - value("god-object", finger, rate, "peak_db"));
+      EXPECT_NEAR(value("god-object", finger, rate, "under_hold_db"),
+                  value("god-object hold", finger, rate, "peak_db") - value("god-object", finger, rate, "peak_db"),
+                  1e-3);
     }
   }
   EXPECT_NEAR(value("relievo linear", "fixed point", "15", "under_hold_db"), 26, 3);
