@@ -76,7 +76,7 @@ void addSourceOptions(CLI::App& app, SourceOptions& source) {
 CLI::Validator quality() {
   return {[](const std::string& word) -> std::string {
             int crf = -1;
-            const bool good = CLI::detail::lexical_cast(word, crf) && crf >= 0 && crf <= 51;
+            const bool good = CLI::detail::lexical_cast(word, crf) && word == std::to_string(std::clamp(crf, 0, 51));
             return good ? "" : word + " is not a whole number between 0 and 51";
           },
           ""};
@@ -94,7 +94,8 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
 
 DepthSize depthSize(const std::string& word) {
   std::array<double, 2> size{};
-  if (!parseSizes(word, size) || std::min(size[0], size[1]) < 2 || size[0] * size[1] > VideoDecoder::kMostSamples) {
+  if (!parseSizes(word, size) || word.contains('.') || std::min(size[0], size[1]) < 2 ||
+      size[0] * size[1] > VideoDecoder::kMostSamples) {
     throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, up to 4096x4096"}});
   }
   return {static_cast<int>(size[0]), static_cast<int>(size[1])};
@@ -104,9 +105,8 @@ void addDepthFromOptions(CLI::App& app, Arguments& a) {
   app.add_option(
          "--depth-from", a.depth_from,
          "Make depth for a film without depth\nstereo: from a 3D film's two views, left and right, or above and "
-         "below "
-         "each other; the film's\ncolour is the left view\nCMD: a command that guesses it from one view. /bin/sh runs "
-         "it; "
+         "below each other; the film's\ncolour is the left view\nCMD: a command that guesses it from one view. /bin/sh "
+         "runs it; "
          "it reads raw pictures (RGB24 of\n$RELIEVO_WIDTH x $RELIEVO_HEIGHT) and writes one depth picture for each, in "
          "the same order, up to\n64 pictures later: 16 bits a sample, little endian, larger is nearer\nMODEL.onnx: a "
          "network that guesses it, such as MiDaS or Depth Anything")

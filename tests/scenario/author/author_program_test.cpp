@@ -88,7 +88,9 @@ TEST_F(AuthorFilm, ProgramTellsWrongUseInOneLine) {
        {"--color @/color.mkv", "-o @/out.mkv", "--scene moon -o @/out.mkv", "--color @/color.mkv -o @/out.avi",
         "--scene sample --color @/color.mkv -o @/out.mkv", "--color @/color.mkv -o @/out.mkv --crf 99",
         "--color @/color.mkv -o @/out.mkv --calibration law=steep", "--color @/color.mkv -o @/out.mkv --packing pile",
-        "--color @/color.mkv -o @/out.mkv --depth-from cat --depth-size 4097x4096"}) {
+        "--color @/color.mkv -o @/out.mkv --depth-from cat --depth-size 4097x4096",
+        "--color @/color.mkv -o @/out.mkv --crf 010",
+        "--color @/color.mkv -o @/out.mkv --depth-from cat --depth-size 51.7x29"}) {
     const auto said = run(arguments);
     EXPECT_EQ(said.exit_code, 2) << arguments << ": " << said.err;
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << arguments << ": " << said.err;
