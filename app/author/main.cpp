@@ -20,7 +20,6 @@
 #include "drivers/registry.h"
 #include "hal/media/video_decoder.h"
 #include "platform/clock.h"
-#include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/plain_text.h"
 
@@ -131,6 +130,10 @@ Outcome<void> chooseDepth(Arguments& a) {
     return failOn("--depth-size", {ErrorCode::InvalidArgument, 0,
                                    "with --depth-from stereo the depth has the views' size; leave it out"});
   }
+  if (stereo && !isOfFiles(a.source.url)) {
+    return failOn(a.source.url,
+                  {ErrorCode::Unsupported, 0, "depth from two views reads the film twice; record it to a file first"});
+  }
   if (!stereo && a.swap_eyes != SwapEyes::Auto) {
     return failOn("--swap-eyes", {ErrorCode::InvalidArgument, 0, "is for --depth-from stereo; leave it out"});
   }
@@ -140,17 +143,11 @@ Outcome<void> chooseDepth(Arguments& a) {
 }
 
 // A painting is opened in the middle of the work, where nothing may wait for a pipe's writer or for a server.
-bool isOfFiles(const Painting& painting) {
-  const std::string path = localPathIn(painting.path);
-  const auto status = statusOf(path);
-  return !path.empty() && (!status || S_ISREG(status->st_mode) || S_ISDIR(status->st_mode));
-}
-
 Outcome<void> choosePaintings(Arguments& a) {
   if (a.paintings.empty()) return {};
   auto paintings = parsePaintings(a.paintings);
   if (!paintings) return failOn("--material " + a.paintings, paintings.error());
-  if (const auto other = std::ranges::find_if_not(*paintings, isOfFiles); other != paintings->end()) {
+  if (const auto other = std::ranges::find_if_not(*paintings, isOfFiles, &Painting::path); other != paintings->end()) {
     return failOn(other->path,
                   {ErrorCode::Unsupported, 0,
                    "a painting is a file of this machine, no pipe, device or address; make it a file first"});

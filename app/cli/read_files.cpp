@@ -164,6 +164,13 @@ std::string localPathIn(const std::string& address) {
   return address.find("://") == std::string::npos ? address : "";
 }
 
+bool isOfFiles(const std::string& address) {
+  const std::string path = localPathIn(address);
+  const auto status = statusOf(path);
+  return !path.empty() && !path.starts_with("v4l2:") &&
+         (!status || S_ISREG(status->st_mode) || S_ISDIR(status->st_mode));
+}
+
 std::vector<std::string> filesReadBy(const std::string& address) {
   std::vector<std::string> files;
   addFiles(address, 0, files);

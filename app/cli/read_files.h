@@ -9,6 +9,9 @@ namespace relievo {
 
 // The local path that an address names; empty for other addresses.
 [[nodiscard]] std::string localPathIn(const std::string& address);
+// True for a file, a folder, a pattern or a name that is missing: no pipe, device or address, which may keep its reader
+// waiting or can be read only once.
+[[nodiscard]] bool isOfFiles(const std::string& address);
 
 // The existing files that opening `address` reads: the file itself (also as a `file:` address), the pictures of a
 // numbered sequence (`%04d`) or of a folder, and everything that a list names, nested lists included: playlists, HLS,

@@ -15,13 +15,7 @@ namespace {
 constexpr Error kNotTwoViews{ErrorCode::Unsupported, 0,
                              "not a film of two views; if it is one, state their layout with --packing stereo-sbs or "
                              "stereo-tb"};
-constexpr Error kNotReadAgain{ErrorCode::Unsupported, 0,
-                              "depth from two views reads the film twice; record it to a file first"};
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
-
-bool canBeReadAgain(const std::string& url) {
-  return url.find("://") == std::string::npos && !url.starts_with("v4l2:");
-}
 
 // The user states that the film has two views, so halves that may be views are taken as views.
 Outcome<SourceOptions> withLayout(SourceOptions source, const PairReader::Backends& backends) {
@@ -73,7 +67,6 @@ StereoFilm::StereoFilm(SourceOptions source, StereoPlan plan, bool swapped)
 
 Outcome<StereoFilm> StereoFilm::survey(const SourceOptions& source, const PairReader::Backends& backends, SwapEyes swap,
                                        const std::atomic<bool>& stop, const Progress& progress) {
-  if (!canBeReadAgain(source.url)) return failOn(source.url, kNotReadAgain);
   auto told = withLayout(source, backends);
   if (!told) return std::unexpected(told.error());
   bool swapped = swap == SwapEyes::Yes;

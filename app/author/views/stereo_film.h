@@ -21,7 +21,7 @@ class StereoFilm {
  public:
   using Progress = std::function<void(std::uint64_t done, std::optional<std::uint64_t> total)>;
 
-  // Reads the whole film once, or twice if the eyes turn out to be swapped. Fails if the source cannot be read again,
+  // Reads the whole film once, or twice if the eyes turn out to be swapped: it is one that can be read again. Fails
   // if the film does not consist of two views, or if they hold no depth; Cancelled when `stop` is set.
   [[nodiscard]] static Outcome<StereoFilm> survey(const SourceOptions& source, const PairReader::Backends& backends,
                                                   SwapEyes swap, const std::atomic<bool>& stop,

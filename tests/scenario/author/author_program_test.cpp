@@ -126,6 +126,22 @@ TEST_F(AuthorFilm, ProgramTakesPaintingsFromFilesAlone) {
   }
 }
 
+// It reads the film twice. A film that can be read twice is opened, by its address as well.
+TEST_F(AuthorFilm, ProgramMakesDepthFromViewsInFilesAlone) {
+  const std::string pipe = folder_ / "pipe.mkv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& film : {pipe, std::string("http://127.0.0.1:9/a.mkv"), std::string("/dev/zero")}) {
+    const auto said = run("--color " + film + " --depth-from stereo -o @/out.mkv");
+    EXPECT_EQ(said.exit_code, 1) << film;
+    EXPECT_THAT(said.err, HasSubstr(film + ": depth from two views reads the film twice"));
+  }
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  for (const char* film : {"@/color.mkv", "file://@/color.mkv"}) {
+    const auto said = run(std::string("--color ") + film + " --depth-from stereo -o @/out.mkv");
+    EXPECT_THAT(said.err, HasSubstr("not a film of two views")) << film;
+  }
+}
+
 TEST_F(AuthorFilm, ProgramsHelpNamesItsMainOptions) {
   const auto said = run("--help");
   EXPECT_EQ(said.exit_code, 0);
