@@ -12,8 +12,9 @@ namespace relievo {
 template <class T>
 [[nodiscard]] std::optional<T> numberIn(std::string_view text) noexcept {
   T value{};
-  const char* const end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, value);
+  const char* const begin = text.data();
+  const char* const end = begin + text.size();
+  const auto [last, error] = std::from_chars(begin, end, value);
   return error == std::errc() && last == end ? std::optional(value) : std::nullopt;
 }
 
