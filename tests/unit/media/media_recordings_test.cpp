@@ -159,7 +159,7 @@ TEST(Recordings, ExchangedInputsAndOtherShapesAreTold) {
   EXPECT_THAT(open({.url = folder / "depth.mkv", .depth_url = folder / "color.mkv"}).info.reading.doubts,
               Contains(HasSubstr("exchanged")));
   EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "wide.mkv"}).info.reading.doubts,
-              Contains(HasSubstr("stretched")));
+              Contains(HasSubstr("in the colour's shape")));
   EXPECT_THAT(open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"}).info.reading.doubts,
               testing::ElementsAre(HasSubstr("nothing says which end")));
 }
