@@ -5,6 +5,10 @@
 
 #include <linux/input-event-codes.h>
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "hal/key_names.h"
 
 namespace relievo {
@@ -177,6 +181,16 @@ constexpr SignPair kSigns[] = {
     {'/', KEY_SLASH},
 };
 
+// What Shift makes of these in the USA: the table is asked where SDL tells no text, as with Ctrl, or over SDL 3.
+constexpr std::pair<char, char> kShifted[] = {{'3', '#'}, {'/', '?'}, {',', '<'}, {'.', '>'}};
+
+int signOf(const SDL_Keysym& key, std::string_view typed) noexcept {
+  if (typed.size() == 1) return typed.front();
+  if (!typed.empty() || (key.mod & KMOD_SHIFT) == 0) return key.sym;
+  const auto* const found = std::ranges::find(kShifted, key.sym, &std::pair<char, char>::first);
+  return found == std::end(kShifted) ? key.sym : found->second;
+}
+
 std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
   for (const KeyPair& key : kKeys) {
     if (key.scancode == scancode) return key.code;
@@ -194,7 +208,7 @@ SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
 
 std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key, std::string_view typed) noexcept {
   const bool on_keypad = (key.sym & SDLK_SCANCODE_MASK) != 0;
-  const int sign = on_keypad ? 0 : typed.size() == 1 ? typed.front() : key.sym;
+  const int sign = on_keypad ? 0 : signOf(key, typed);
   for (const SignPair& pair : kSigns) {
     if (pair.sign == sign) return pair.code;
   }

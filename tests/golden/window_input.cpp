@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "drivers/egl/egl.h"
+#include "drivers/egl/window_keys.h"
 #include "drivers/window/window_input.h"
 #include "hal/key_names.h"
 #include "tests/golden/window_display.h"
@@ -20,6 +21,16 @@ namespace {
 
 using namespace std::chrono_literals;
 using Action = KeyEvent::Action;
+
+TEST(WindowKeys, WithoutATextShiftMakesWhatItMakesInTheUsa) {
+  SDL_Keysym slash{};
+  slash.scancode = SDL_SCANCODE_SLASH;
+  slash.sym = SDLK_SLASH;
+  EXPECT_EQ(linuxKey(slash, ""), KEY_SLASH);
+  slash.mod = KMOD_LSHIFT;
+  EXPECT_EQ(linuxKey(slash, ""), KEY_QUESTION);
+  EXPECT_EQ(linuxKey(slash, "_"), KEY_MINUS | kWithShift) << "as in Germany";
+}
 
 TEST_F(WindowDisplay, KeysArriveWithTheCodesOfLinux) {
   screen_->focus(window_);
