@@ -95,8 +95,8 @@ Result<void> PairReader::Impl::measureHalves() {
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
   Result<Frame> look = tellingPicture(first, depthUrl(), stream.index);
-  // A picture after the first one is still as it is stored.
-  if (look->pts != first.pts) look = depthIn(*look);
+  // Another picture than `first` is still as it is stored.
+  if (look->planes[0].data != first.planes[0].data) look = depthIn(*look);
   if (!look) return failOn(depthUrl(), look.error());
   const bool guessed = !sources.depth() && options.packing == Packing::Auto && !isMarkedAsDepth(stream);
   const bool colored = look->model != ColorModel::Gray && lookAt(*look).gray < kMostlyGray;
