@@ -115,8 +115,7 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   const auto endsThere = [&](const Error& error) {
     const bool changes = error.code == ErrorCode::Unsupported;
     if (!live || (!changes && !reader.isSourceLost(error))) return false;
-    log(LogLevel::Warning, source.url.c_str(), "%s; the film ends there",
-        changes ? "its pictures change their size or format" : error.message);
+    log(LogLevel::Warning, source.url.c_str(), "the film ends there: %s", error.message);
     return true;
   };
   for (std::uint64_t done = 1;; ++done) {
