@@ -72,7 +72,7 @@ class EvdevPort final : public MousePort {
     const bool mouse = isMouse(fd_.get());
     if (mouse && takeNode(fd_.get())) return {};
     fd_.reset();
-    if (mouse) return fail(ErrorCode::Unsupported, kTaken);
+    if (mouse) return fail(ErrorCode::NotFound, kTaken);
     return fail(ErrorCode::Unsupported,
                 "this input device is no mouse: it lacks relative axes or a left button; choose another");
   }
