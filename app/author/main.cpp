@@ -93,7 +93,7 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
 
 DepthSize depthSize(const std::string& word) {
   std::array<double, 2> size{};
-  if (!parseSizes(word, size) || word.contains('.') || std::min(size[0], size[1]) < 2 ||
+  if (!parseSizes(word, size) || word.find_first_of(".eE") != std::string::npos || std::min(size[0], size[1]) < 2 ||
       size[0] * size[1] > VideoDecoder::kMostSamples) {
     throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, up to 4096x4096"}});
   }
@@ -130,7 +130,7 @@ Outcome<void> chooseDepth(Arguments& a) {
     return failOn("--depth-size", {ErrorCode::InvalidArgument, 0,
                                    "with --depth-from stereo the depth has the views' size; leave it out"});
   }
-  if (stereo && !isOfFiles(a.source.url)) {
+  if (stereo && !a.source.url.empty() && !isOfFiles(a.source.url)) {
     return failOn(a.source.url,
                   {ErrorCode::Unsupported, 0, "depth from two views reads the film twice; record it to a file first"});
   }

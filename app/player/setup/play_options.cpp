@@ -56,7 +56,7 @@ void addSources(CLI::App& command, PlayOptions& play) {
 
 DisplayConfig readSize(const std::string& word) {
   std::array<double, 2> size{};
-  if (!parseSizes(word, size) || word.contains('.') || std::min(size[0], size[1]) < 1 ||
+  if (!parseSizes(word, size) || word.find_first_of(".eE") != std::string::npos || std::min(size[0], size[1]) < 1 ||
       std::max(size[0], size[1]) > kMostPixels || size[0] * size[1] > kMostOfDisplay) {
     throw WordFailure({"--size " + word, {ErrorCode::InvalidArgument, 0, kNoSize}});
   }

@@ -182,6 +182,7 @@ TEST(Options, RefuseWrongWordsInOneLine) {
   expectRefused({"play", "film.mkv", "--size", "640x360x2"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "0x360"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "640.9x480"}, "--size");
+  expectRefused({"play", "film.mkv", "--size", "64e1x480"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "99999x360"}, "--size");
   expectRefused({"play", "film.mkv", "--size", "16384x16384"}, "67 million in all");
   expectRefused({"play", "film.mkv", "--box", "160x90"}, "--box");
