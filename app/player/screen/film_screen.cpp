@@ -114,7 +114,7 @@ Result<bool> FilmScreen::draw(const FingerMarks& fingers, MonotonicTime now) {
 
 void FilmScreen::write(const ScreenFacts& facts, MonotonicTime next_picture, MonotonicTime now) {
   const bool waits = waitsLong(facts.state, now);
-  if (waits) text_.notice({"Opening " + facts.title, std::nullopt}, now);
+  if (waits && text_.noticed(now).empty()) text_.notice({"Opening " + facts.title, std::nullopt}, now);
   const bool any = text_.hasList() || (osd_ && (first_shown_ || waits));
   auto content = any ? text_.content(facts, statistics_, now) : ScreenContent{};
   if (content == written_) return;
