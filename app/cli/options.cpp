@@ -254,7 +254,7 @@ void addBoxOption(CLI::App& app, std::optional<DisplayVolume>& volume) {
            }
            volume = DisplayVolume{mm[0], mm[1], mm[2]};
          },
-         "Box that the relief fills, mm\n[160 wide, 40 deep, height from the depth picture's aspect ratio]")
+         "Box that the relief fills, mm\n[160 wide, 40 deep, height from the picture's aspect ratio]")
       ->type_name("WxHxD");
 }
 

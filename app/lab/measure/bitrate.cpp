@@ -237,7 +237,7 @@ std::string tellColored(const std::vector<Figures>& all, const Plan& plan) {
                   text.empty() ? " In colours, 4:2:0 tuned for the eye: " : "; ", name(f.coding.steps), f.coding.crf,
                   f.force.result().rms_percent, rate, evenPercentAt(rate, all, plan));
   }
-  return text + "; brightness is tuned for touch.";
+  return text.empty() ? text : text + "; brightness is tuned for touch.";
 }
 
 ChartWords wordsOf(const std::vector<Figures>& all, const std::vector<TimedSteps>& timed, const Plan& plan) {
