@@ -3,7 +3,8 @@
 """Runs the lines of toolchain/catalogue.md as they stand there, with GNU parallel and with a Slurm of this machine alone.
 
 Of twenty films one job is killed, and Slurm's daemon of the machine is started again meanwhile. Submitted once more, every film is
-whole, and none was made twice. A film made in segments has one code for one distance before and after the join. catalogue.py BIN; ends with 77 where GNU parallel or Slurm is missing."""
+whole, and none was made twice. A film made in segments has one code for one distance before and after the join.
+catalogue.py BIN; ends with 77 where GNU parallel or Slurm is missing."""
 import argparse
 import contextlib
 import os
