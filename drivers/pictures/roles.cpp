@@ -127,14 +127,18 @@ std::size_t keepBestDepth(std::vector<std::string>& names) {
   if (names.empty()) return 0;
   std::map<std::vector<std::string>, std::set<std::string>> kinds;  // digits by words
   for (const std::string& name : names) kinds[sortedWordsOf(stemOf(name))].insert(digitsOf(stemOf(name)));
-  const auto best = kinds.find(sortedWordsOf(stemOf(*std::ranges::min_element(names, isBetter))));
+  const std::string& best_name = *std::ranges::min_element(names, isBetter);
+  const auto best = kinds.find(sortedWordsOf(stemOf(best_name)));
+  const bool named = !keyOf(best_name).empty();  // "beach", not "depth"
   const bool painted = holdsOne(best->first, kPainted);
   std::erase_if(kinds, [&](const auto& kind) {
     const auto& [words, digits] = kind;
     if (words == best->first) return false;
     if (!painted && holdsOne(words, kPainted)) return true;
     const bool related = std::ranges::includes(words, best->first) || std::ranges::includes(best->first, words);
-    return related && std::ranges::any_of(digits, [&](const auto& each) { return best->second.contains(each); });
+    return related && std::ranges::any_of(digits, [&](const auto& each) {
+             return (!each.empty() || !named) && best->second.contains(each);
+           });
   });
   return std::erase_if(names, [&](const auto& name) { return !kinds.contains(sortedWordsOf(stemOf(name))); });
 }

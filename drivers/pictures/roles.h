@@ -32,7 +32,8 @@ enum class Role : std::uint8_t {
 
 // Keeps the pictures of a folder that are of the kind of its best depth. Left out are those that the names tell to be
 // another one of the same frames: "0-depth_true.png" beside "0-depth.png", and all that are painted for the eye
-// ("0-depth_vis.png") beside others. Returns how many are.
+// ("0-depth_vis.png") beside others. "beach" and "beach_sunset" are no frames of one number. Returns how many are left
+// out.
 [[nodiscard]] std::size_t keepBestDepth(std::vector<std::string>& names);
 
 // Drops the names that say "right" if others say "left".

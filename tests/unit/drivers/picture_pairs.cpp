@@ -52,6 +52,21 @@ TEST_F(Pictures, OfSeveralKindsOfDepthForAFrameOneIsTaken) {
   EXPECT_EQ(read(folder_ / "p").depth.size(), 3u);
 }
 
+// The words of one name may hold those of another.
+TEST_F(Pictures, PhotosWithoutNumbersAreNoKindsOfDepth) {
+  for (const std::string name : {"beach", "beach_sunset", "house"}) {
+    file("f/images/" + name + ".jpg"), file("f/depth/" + name + ".png");
+    file("o/" + name + ".jpg"), file("o/" + name + "-depth.png");
+    file("v/images/" + name + ".jpg"), file("v/depth/" + name + ".png"), file("v/depth/" + name + "_vis.png");
+  }
+  EXPECT_THAT(read(folder_ / "f").depth,
+              ElementsAre("0 f/depth/beach.png", "5000 f/depth/beach_sunset.png", "10000 f/depth/house.png"));
+  EXPECT_EQ(read(folder_ / "o").depth.size(), 3u);
+  EXPECT_THAT(read(folder_ / "v").depth, Each(Not(HasSubstr("vis"))));
+  for (const char* name : {"rgb", "depth", "depth_raw"}) file("s/" + std::string(name) + ".png");
+  EXPECT_THAT(read(folder_ / "s").depth, ElementsAre("0 s/depth.png"));
+}
+
 // monodepth2: numbers beside a picture of them for the eye.
 TEST_F(Pictures, OfTwoEndingsOfDepthTheOneWithNumbersIsTaken) {
   for (const char* name : {"0", "1"}) {
