@@ -37,6 +37,10 @@ std::ptrdiff_t depthRankOf(const std::string& name) {
   return std::ranges::find(kEndings, endingOf(name)) - kEndings.begin();
 }
 
+bool holdsPhotograph(const std::vector<std::string>& names) {
+  return std::ranges::any_of(names, isPhoto);
+}
+
 std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out) {
   std::map<std::string, std::size_t> count;
   for (const std::string& name : names) ++count[endingOf(name)];

@@ -13,6 +13,9 @@ namespace relievo::pictures {
 // The place of a picture's ending in the order of preference for depth: formats of floating-point numbers first.
 [[nodiscard]] std::ptrdiff_t depthRankOf(const std::string& name);
 
+// Whether a name ends as a camera's photographs do, and masks do not.
+[[nodiscard]] bool holdsPhotograph(const std::vector<std::string>& names);
+
 // Keeps the names with the most frequent ending, or, of depth with several such, the preferred one; counts the others.
 [[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out);
 

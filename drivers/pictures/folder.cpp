@@ -101,19 +101,19 @@ PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& fou
 }
 
 // Beside depth without colour: the folder whose name says nothing ("frames", "JPEGImages") but whose pictures have most
-// of the depth's names, or at least their number. The others are told.
+// of the depth's names, or at least their number; of equal ones that of photographs. The others are told.
 PictureFiles colorBeside(const std::string& folder, const Listing& listing, FoundPictures& found) {
-  std::map<std::string, std::size_t> worth;
+  std::map<std::string, std::pair<std::size_t, bool>> worth;
   for (const std::string& name : listing.folders) {
-    if (roleOf(name) != Role::Unsaid || isPainted(name)) continue;
+    if (roleOf(name) != Role::Unsaid || isPainted(name) || lowerCase(name) == "alpha") continue;
     const auto pictures = listingOf(folder + name).value_or(Listing{}).pictures;
-    if (!pictures.empty()) worth[name] = likeness(pictures, found.depth.names);
+    if (!pictures.empty()) worth[name] = {likeness(pictures, found.depth.names), holdsPhotograph(pictures)};
   }
   const auto best = std::ranges::max_element(worth, {}, [](const auto& entry) { return entry.second; });
-  std::string taken;
-  if (best != worth.end() && best->second > 0) taken = best->first;
-  for (const auto& [name, shared] : worth) {
-    if (name != taken) found.notes.push_back(name + " is left out: its pictures have no names of the depth's");
+  const std::string taken = best != worth.end() && best->second.first > 0 ? best->first : "";
+  const std::string why = taken.empty() ? "its pictures have no names of the depth's" : taken + " is taken for colour";
+  for (const auto& [name, value] : worth) {
+    if (name != taken) found.notes.push_back(name + " is left out: " + why);
   }
   return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
 }

@@ -17,11 +17,11 @@ constexpr std::array<std::string_view, 9> kDepth{"xyz",  "depth",    "depths",  
                                                  "disp", "depthmap", "depthcrop", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
-constexpr std::array<std::string_view, 28> kOther{
-    "flow",     "flows", "segmentation", "coordinates", "occlusion", "occlusions", "outofframe",
-    "semantic", "ab",    "mask",         "masks",       "maskcrop",  "normal",     "normals",
-    "seg",      "label", "labels",       "instance",    "infrared",  "ir",         "pose",
-    "thumb",    "cover", "preview",      "confidence",  "conf",      "intrinsics", "masked"};
+constexpr std::array<std::string_view, 32> kOther{
+    "flow",       "flows",    "segmentation", "coordinates", "occlusion",  "occlusions",  "outofframe", "semantic",
+    "ab",         "mask",     "masks",        "maskcrop",    "normal",     "normals",     "seg",        "label",
+    "labels",     "instance", "infrared",     "ir",          "pose",       "thumb",       "cover",      "preview",
+    "confidence", "conf",     "intrinsics",   "masked",      "annotation", "annotations", "semantics",  "instances"};
 
 std::vector<std::string> wordsOf(std::string_view name) {
   std::vector<std::string> words(1);

@@ -92,10 +92,29 @@ TEST_F(Pictures, AFolderBesideDepthIsColourIfItsNamesAreThose) {
   EXPECT_EQ(frames.depth.size(), 3u);
   const Film several = read(folder_ / "b", 10);
   EXPECT_EQ(several.color.front(), "0 b/JPEGImages/1.png");
-  EXPECT_THAT(several.notes, Contains("Annotated is left out: its pictures have no names of the depth's"));
+  EXPECT_THAT(several.notes, Contains("Annotated is left out: JPEGImages is taken for colour"));
   const Film alone = read(folder_ / "c", 10);
   EXPECT_EQ(alone.streams.size(), 1u) << "neither other names nor painted depth";
-  EXPECT_THAT(alone.notes, Contains(HasSubstr("sketches is left out")));
+  EXPECT_THAT(alone.notes, Contains("sketches is left out: its pictures have no names of the depth's"));
+}
+
+// DAVIS; Replica; names that say nothing but of which one holds photographs.
+TEST_F(Pictures, OfFoldersWithTheDepthsNamesTheOneOfPhotographsIsColour) {
+  for (const std::string name : {"00000", "00001", "00002"}) {
+    for (const char* folder : {"d/JPEGImages/", "u/first/", "u/second/"})
+      file(folder + name + (folder[2] == 'f' ? ".png" : ".jpg"));
+    for (const char* folder : {"d/Annotations/", "d/depth/", "s/depth/", "s/semantics/", "u/depth/", "e/depth/"})
+      file(folder + name + ".png");
+    file("e/one/" + name + ".jpg"), file("e/two/" + name + ".jpg");
+  }
+  const Film davis = read(folder_ / "d", 10);
+  EXPECT_THAT(davis.color, Each(HasSubstr("JPEGImages")));
+  EXPECT_THAT(davis.notes, Each(Not(HasSubstr("is left out"))));
+  EXPECT_EQ(read(folder_ / "s", 10).streams.size(), 1u) << "no colour";
+  const Film unsaid = read(folder_ / "u", 10);
+  EXPECT_THAT(unsaid.color, Each(HasSubstr("second")));
+  EXPECT_THAT(unsaid.notes, Contains("first is left out: second is taken for colour"));
+  EXPECT_THAT(read(folder_ / "e", 10).notes, Contains("two is left out: one is taken for colour"));
 }
 
 TEST_F(Pictures, NumbersThatAreFarApartArePhotos) {
