@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <iterator>
 #include <numeric>
 #include <set>
 
@@ -157,13 +159,45 @@ std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>&
   return values;
 }
 
-// "20230101" of "IMG_20230101_101010".
-std::string_view dateIn(std::string_view stem) {
-  for (const Run& run : runsOf(stem)) {
-    if (run.digits && run.text.size() == 8 && (run.text.starts_with("20") || run.text.starts_with("19")))
-      return run.text;
+// That of "IMG_20230101_101010", or the first of the day.
+std::optional<std::chrono::sys_seconds> momentIn(std::string_view stem) {
+  using namespace std::chrono;
+  const auto part = [](const Run& run, std::size_t from, std::size_t count) {
+    return static_cast<int>(*integerIn(run.text.substr(from, count)));
+  };
+  const std::vector<Run> runs = runsOf(stem);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const Run& run = runs[i];
+    if (!run.digits || run.text.size() != 8 || !(run.text.starts_with("20") || run.text.starts_with("19"))) continue;
+    const year_month_day date{year(part(run, 0, 4)), month(static_cast<unsigned>(part(run, 4, 2))),
+                              day(static_cast<unsigned>(part(run, 6, 2)))};
+    if (!date.ok()) continue;
+    sys_seconds moment = sys_days(date);
+    if (i + 2 < runs.size() && runs[i + 2].text.size() >= 6) {
+      const Run& time = runs[i + 2];
+      moment += hours(part(time, 0, 2)) + minutes(part(time, 2, 2)) + seconds(part(time, 4, 2));
+    }
+    return moment;
   }
-  return "";
+  return std::nullopt;
+}
+
+// Whether the names tell moments of several days, most of them some seconds apart. Frames are nearer.
+bool tellDays(const std::vector<std::string>& names) {
+  constexpr std::chrono::seconds kFar{3};
+  std::set<std::chrono::sys_seconds> moments;
+  for (const std::string& name : names) {
+    const auto moment = momentIn(stemOf(name));
+    if (!moment) return false;
+    moments.insert(*moment);
+  }
+  const auto dayOf = [](auto moment) { return std::chrono::floor<std::chrono::days>(moment); };
+  if (dayOf(*moments.begin()) == dayOf(*moments.rbegin())) return false;
+  std::size_t far = 0;
+  for (auto each = std::next(moments.begin()); each != moments.end(); ++each) {
+    if (*each - *std::prev(each) >= kFar) ++far;
+  }
+  return 2 * far >= moments.size();
 }
 
 std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
@@ -236,9 +270,8 @@ bool areUnrelated(const std::vector<std::string>& names) {
     std::erase_if(words, [](char c) { return c >= '0' && c <= '9'; });
     return words;
   };
-  const std::string words = wordsOf(names.front()), date(dateIn(stemOf(names.front())));
-  return std::ranges::any_of(names,
-                             [&](const auto& name) { return wordsOf(name) != words || dateIn(stemOf(name)) != date; });
+  const std::string words = wordsOf(names.front());
+  return std::ranges::any_of(names, [&](const auto& name) { return wordsOf(name) != words; }) || tellDays(names);
 }
 
 }  // namespace relievo::pictures

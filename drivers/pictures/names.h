@@ -40,7 +40,8 @@ struct NameValues {
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
 [[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);
 
-// Whether names of one series differ in more than digits, or in a date ("IMG_20230101_101010"), as those of photos do.
+// Whether names of one series differ in more than digits, or in dates ("IMG_20230101_101010") whose times are mostly
+// some seconds apart, as those of photos do.
 [[nodiscard]] bool areUnrelated(const std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

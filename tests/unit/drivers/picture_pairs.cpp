@@ -134,6 +134,19 @@ TEST_F(Pictures, NumbersThatAreFarApartArePhotos) {
               ElementsAre("0 s/depth/depth0.png", "20000 s/depth/depth200.png", "40000 s/depth/depth400.png"));
 }
 
+// A recording over midnight; a counter that is no date.
+TEST_F(Pictures, DatesThatDifferByFramesAreNoPhotos) {
+  for (const char* name : {"cam_20230101_235959_966", "cam_20230101_235959_999", "cam_20230102_000000_033"})
+    file("m/images/" + std::string(name) + ".jpg"), file("m/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "m").color.back(), "66.6667 m/images/cam_20230102_000000_033.jpg");
+  for (const char* name : {"f_0001_19966667", "f_0002_20000000"})
+    file("c/images/" + std::string(name) + ".jpg"), file("c/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "c").color.back(), "33.3333 c/images/f_0002_20000000.jpg");
+  for (const char* name : {"IMG-20230101-WA0001", "IMG-20230101-WA0002", "IMG-20230103-WA0000"})
+    file("w/images/" + std::string(name) + ".jpg"), file("w/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "w").color.back(), "10000 w/images/IMG-20230103-WA0000.jpg");
+}
+
 TEST_F(Pictures, DatesThatDifferArePhotos) {
   for (const char* name : {"IMG_20230101_101010", "IMG_20230102_111213", "IMG_20230305_151617"})
     file("p/images/" + std::string(name) + ".jpg"), file("p/depth/" + std::string(name) + ".png");
