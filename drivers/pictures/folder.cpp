@@ -113,7 +113,7 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
   const std::string taken = best != worth.end() && best->second.first > 0 ? best->first : "";
   const std::string why = taken.empty() ? "its pictures have no names of the depth's" : taken + " is taken for colour";
   for (const auto& [name, value] : worth) {
-    if (name != taken) found.notes.push_back(name + " is left out: " + why);
+    if (name != taken) found.notes.push_back(std::string(name).append(" is left out: ").append(why));
   }
   return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
 }
