@@ -8,7 +8,7 @@
 #include <cctype>
 #include <string>
 
-#include "platform/near_words.h"
+#include "platform/text/near_words.h"
 
 namespace relievo {
 namespace {

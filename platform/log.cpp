@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "platform/plain_text.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

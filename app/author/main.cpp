@@ -21,7 +21,7 @@
 #include "hal/media/video_decoder.h"
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
-#include "platform/plain_text.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <string>
 
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 #include "platform/whole_file.h"
 
 namespace relievo {

@@ -16,8 +16,8 @@
 #include "app/media/pair_reader.h"
 #include "app/scene/display_volume.h"
 #include "platform/failure.h"
-#include "platform/lower_case.h"
-#include "platform/near_words.h"
+#include "platform/text/lower_case.h"
+#include "platform/text/near_words.h"
 
 namespace relievo {
 

@@ -12,8 +12,8 @@
 
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
-#include "platform/lower_case.h"
 #include "platform/print.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

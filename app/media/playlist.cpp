@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "platform/files/answered_place.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -28,8 +28,8 @@
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "platform/log.h"
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

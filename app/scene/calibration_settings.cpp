@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "app/scene/depth_calibration.h"
-#include "platform/number_in.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {

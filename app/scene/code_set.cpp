@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "platform/number_in.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {

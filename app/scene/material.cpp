@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "platform/number_in.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {

@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "drivers/exr/exr_header.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "drivers/floats/floats.h"
-#include "platform/number_in.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {

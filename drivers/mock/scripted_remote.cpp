@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "hal/key_names.h"
-#include "platform/number_in.h"
+#include "platform/text/number_in.h"
 #include "platform/whole_file.h"
 
 namespace relievo {

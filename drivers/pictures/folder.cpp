@@ -16,7 +16,7 @@
 #include "drivers/pictures/stereo.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 #include "platform/whole_file.h"
 
 namespace relievo::pictures {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "hal/media/media_names.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo::pictures {
 namespace {

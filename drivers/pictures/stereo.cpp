@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "drivers/pictures/endings.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo::pictures {
 namespace {

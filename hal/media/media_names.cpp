@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/author/package/held_tracks.h"
 #include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
-#include "platform/plain_text.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

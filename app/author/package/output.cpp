@@ -11,8 +11,8 @@
 #include "app/author/package/film_kind.h"
 #include "app/scene/display_volume.h"
 #include "platform/files/answered_place.h"
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

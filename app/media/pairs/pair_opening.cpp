@@ -7,8 +7,8 @@
 #include "app/media/frame_rate.h"
 #include "app/media/pairs/pair_film.h"
 #include "app/media/registration/own_registration.h"
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "app/media/reading/depth_doubts.h"
-#include "platform/lower_case.h"
 #include "platform/print.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

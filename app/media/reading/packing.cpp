@@ -10,7 +10,7 @@
 
 #include "app/scene/material.h"
 #include "hal/media/media_names.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

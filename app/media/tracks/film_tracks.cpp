@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "platform/files/answered_place.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

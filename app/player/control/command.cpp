@@ -9,8 +9,8 @@
 
 #include "app/player/control/verb_table.h"
 #include "app/player/screen/stereo_word.h"
-#include "platform/near_words.h"
-#include "platform/number_in.h"
+#include "platform/text/near_words.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {

@@ -13,8 +13,8 @@
 #include "app/player/report.h"
 #include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "platform/plain_text.h"
 #include "platform/print.h"
+#include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {

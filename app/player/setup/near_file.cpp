@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "platform/near_words.h"
+#include "platform/text/near_words.h"
 
 namespace relievo {
 

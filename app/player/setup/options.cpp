@@ -16,7 +16,7 @@
 #include "app/player/setup/play_options.h"
 #include "app/player/setup/settle_play.h"
 #include "platform/files/answered_place.h"
-#include "platform/near_words.h"
+#include "platform/text/near_words.h"
 
 namespace relievo {
 namespace {

@@ -14,8 +14,8 @@
 #include "app/player/screen/stereo_word.h"
 #include "app/player/setup/help_texts.h"
 #include "hal/haptic_rate.h"
-#include "platform/lower_case.h"
 #include "platform/print.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a misspelt word was meant to be.
-#include "platform/near_words.h"
+#include "platform/text/near_words.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text for people holds no commands for their terminal.
-#include "platform/plain_text.h"
+#include "platform/text/plain_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,7 @@
 #include "app/author/package/place/film_io.h"
 #include "platform/atomic_file.h"
 #include "platform/files/file_system_answer.h"
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Three rows of the table of distances are held at a time.
-#include "platform/near_words.h"
+#include "platform/text/near_words.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
-#include "platform/lower_case.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 
