@@ -65,6 +65,29 @@ std::optional<double> shareOf(const falcon::Words& part, const falcon::Words& wh
   return std::max({off.x, off.y, off.z}) <= 1 ? std::optional(share) : std::nullopt;
 }
 
+// The most of `sent` that follow ticks in order, each a share of the tick's command that `allowed` takes: the longest
+// common subsequence by Hunt and Szymanski (1977). last[n] is the earliest tick that the (n+1)th of them can follow.
+template <typename Allowed>
+std::size_t inOrder(const std::vector<falcon::Words>& sent, const std::vector<Tick>& ticks, Allowed allowed) {
+  const WorkspaceMapping mapping = filmMapping();
+  std::vector<falcon::Words> computed;
+  for (const Tick& tick : ticks) computed.push_back(wordsOf(tick, mapping));
+  std::vector<std::size_t> last;
+  for (const falcon::Words& words : sent) {
+    for (std::size_t tick = ticks.size(); tick-- > 0;) {
+      const std::optional<double> share = shareOf(words, computed[tick]);
+      if (!share || !allowed(ticks[tick], *share)) continue;
+      const auto place = std::ranges::lower_bound(last, tick);
+      if (place == last.end()) {
+        last.push_back(tick);
+      } else {
+        *place = tick;
+      }
+    }
+  }
+  return last.size();
+}
+
 TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   const test::TemporaryFolder folder;
 
@@ -89,27 +112,21 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   EXPECT_EQ(model.last().motors, falcon::Words{}) << "zero in the end";
   const auto ticks = readTicks(folder / "t.csv");
   ASSERT_GT(ticks.size(), 100U) << "of 7000, on a machine that keeps up";
-  const WorkspaceMapping mapping = filmMapping();
-  std::vector<falcon::Words> computed;
-  for (const Tick& tick : ticks) computed.push_back(wordsOf(tick, mapping));
   // Each command other than zero must be that of a tick, in order. Two kinds of ticks have no command: those whose
   // command came while the one before was still being sent, and those of a machine that stopped for so long that the
   // driver set the force to zero. The force then fades in anew, as a share of the tick's force. That share is rounded
   // twice, so that it is sometimes more than one count off.
-  std::size_t tick = 0, whole = 0, commands = 0, strays = 0;
-  for (const falcon::Words& words : model.history()) {
-    if (words == falcon::Words{}) continue;
-    ++commands;
-    std::optional<double> share;
-    std::size_t next = tick;
-    for (; next < ticks.size() && !share; ++next) share = shareOf(words, computed[next]);
-    strays += share ? 0 : 1;
-    if (!share) continue;
-    tick = next;
-    whole += *share > 0.99 && glm::length(ticks[tick - 1].force_n) > 0.3 ? 1 : 0;
+  std::vector<falcon::Words> sent;
+  std::ranges::copy_if(model.history(), std::back_inserter(sent),
+                       [](const falcon::Words& words) { return words != falcon::Words{}; });
+  const std::size_t strays = sent.size() - inOrder(sent, ticks, [](const Tick&, double) { return true; });
+  EXPECT_LE(strays, sent.size() / 100) << "of " << sent.size() << " commands";
+  const std::size_t whole = inOrder(
+      sent, ticks, [](const Tick& tick, double share) { return share > 0.99 && glm::length(tick.force_n) > 0.3; });
+  // A machine that leaves out ticks again and again never ends the fade.
+  if (ticks.size() > 5000) {
+    EXPECT_GT(whole, 10U) << "of some thousands";
   }
-  EXPECT_LE(strays, commands / 100) << "of " << commands << " commands";
-  EXPECT_GT(whole, 10U) << "of some thousands, on a machine that keeps up";
 }
 
 TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
