@@ -218,20 +218,17 @@ void PairReader::close() noexcept {
   film.depth.reset();
   film.material = {};
   film.registrar.reset();
-  film.depth_beside = {};
   film.reordering = {};
   film.own = {};
   film.color_ahead.clear();
   film.words_ahead.clear();
   film.color_shift = Duration(0);
   film.goes_on_at = MediaTime{};
-  film.remote = film.live = false;
   film.counters = {};
   film.key_step = Duration(0);
   film.left_out = {};
   film.reach_open = false;
-  film.info = {};
-  film.sources.close();
+  film.OpenFilm::close();
 }
 
 void PairReader::interrupt() noexcept {

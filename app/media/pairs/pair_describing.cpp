@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "app/media/pairs/depth_reach.h"
 #include "app/media/pairs/pair_film.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"
@@ -11,6 +12,7 @@
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"
 #include "hal/media/media_names.h"
+#include "platform/log.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -36,7 +38,7 @@ void PairReader::Impl::lookForCode(const Frame& look) {
 
 // Depth without colour; its samples are put in order as they are read (`pairFor`).
 Result<void> PairReader::Impl::describeAlone(const StreamInfo& track) {
-  Frame look = tellingPicture(color_ahead[0], options.url, track.index);
+  Frame look = scout.tellingPicture(color_ahead[0], options.url, track.index);
   lookForCode(look);
   takeTags(track);
   const KnownKind* const kind = kindOf(clues, look);
@@ -61,8 +63,21 @@ Result<Halves> PairReader::Impl::halvesOf(const Frame& stored) const {
   return halves;
 }
 
+// The depth in a picture as it is stored, as `describe` looks at it.
+Result<Frame> PairReader::Impl::depthIn(const Frame& stored) {
+  if (isPacked() && info.packing != Packing::DepthAlone) {
+    const bool in_yuv = stored.model == ColorModel::Yuv && packed.gray == GrayFrom::Luma;
+    auto halves =
+        in_yuv ? splitPacked(stored, info.packing, DepthCode::Hue, GrayFrom::Luma, packed.seam) : halvesOf(stored);
+    if (!halves) return std::unexpected(halves.error());
+    return std::move(halves->depth);
+  }
+  auto ordered = inOrder(stored, reordering.order);
+  return ordered && registrar ? registrar->registered(*ordered) : std::move(ordered);
+}
+
 Result<void> PairReader::Impl::describeHalves(const StreamInfo& color) {
-  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const Frame look = scout.tellingPicture(color_ahead[0], options.url, color.index);
   const bool beside = info.packing == Packing::SideBySide || info.packing == Packing::SideBySideDepthFirst;
   packed.seam = beside ? whiteSeam(look) : 0;
   if (packed.seam > 0) {
@@ -93,8 +108,8 @@ Result<void> PairReader::Impl::measureHalves() {
 }
 
 Result<void> PairReader::Impl::describeTrack(const Frame& first) {
-  const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
-  Result<Frame> look = tellingPicture(first, depthUrl(), stream.index);
+  const StreamInfo& stream = depthStream();
+  Result<Frame> look = scout.tellingPicture(first, depthUrl(), stream.index);
   // Another picture than `first` is still as it is stored.
   if (look->planes[0].data != first.planes[0].data) look = depthIn(*look);
   if (!look) return failOn(depthUrl(), look.error());
@@ -151,7 +166,8 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
   if (!meaning) return failOn("calibration", meaning.error());
   reach_open = isReachSeen(meaning->calibration);
   if (reach_open) {
-    const std::vector<Frame> later = laterPictures(look.pts, stream.index);
+    const std::vector<Frame> later =
+        scout.laterPictures(look.pts, stream.index, [this](const Frame& stored) { return depthIn(stored); });
     if (!later.empty() && reordering.kind == nullptr) kind = kindOf(clues, look, later);
     if (!later.empty()) meaning = readMeaning(clues, kind, look, later);
     if (!meaning) return failOn("calibration", meaning.error());
@@ -173,6 +189,17 @@ Result<void> PairReader::Impl::describe(const Frame& first, const Frame& look, c
                        : sources.depth() ? sources.depth()->decoder()
                                          : sources.color()->decoder(*depth_beside.track);
   return {};
+}
+
+// Reports, once, a picture that lies beyond near and far if these were guessed.
+void PairReader::Impl::checkReach(const Frame& picture) {
+  const auto beyond = beyondReach(picture, info.calibration.calibration);
+  if (!beyond) return;
+  reach_open = false;
+  log(LogLevel::Warning, "media",
+      "%s: at %.1f s %.0f %% of the depth is outside the range of the first pictures, and is flat: "
+      "--calibration %s",
+      depthUrl().c_str(), toSeconds(picture.pts.time_since_epoch()), beyond->percent, beyond->option.c_str());
 }
 
 }  // namespace relievo

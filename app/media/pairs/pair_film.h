@@ -2,31 +2,26 @@
 // The private state of a PairReader, and its parts with the file that each is in.
 #pragma once
 
-#include <atomic>
 #include <deque>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/media/depth_follower.h"
-#include "app/media/pair_reader.h"
+#include "app/media/pairs/film_scout.h"
 #include "app/media/pairs/left_out_pictures.h"
 #include "app/media/pairs/material_pictures.h"
-#include "app/media/pairs/open_sources.h"
+#include "app/media/pairs/open_film.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/tracks/track_reader.h"
 
 namespace relievo {
 
-struct PairReader::Impl {
-  static constexpr std::size_t kColorTrack = 0;
+struct PairReader::Impl : OpenFilm {
   static constexpr const char* kNotOpen = "no film is open; open one first";
 
-  explicit Impl(Backends b) : backends(std::move(b)) {}
+  using OpenFilm::OpenFilm;
 
   // In pair_opening.cpp.
   Result<void> openReader();
@@ -61,6 +56,8 @@ struct PairReader::Impl {
   void checkViews(const StreamInfo& color);
   void takeDepthFromViews();
   // In pair_describing.cpp: what the depth means.
+  [[nodiscard]] Result<Frame> depthIn(const Frame& stored);
+  void checkReach(const Frame& picture);
   [[nodiscard]] Result<Halves> halvesOf(const Frame& stored) const;
   void lookForCode(const Frame& first);
   Result<void> describeAlone(const StreamInfo& track);
@@ -69,13 +66,6 @@ struct PairReader::Impl {
   Result<void> describeTrack(const Frame& first);
   void takeTags(const StreamInfo& stream);
   Result<void> describe(const Frame& first, const Frame& look, const Frame& color, const StreamInfo& stream);
-  // In pair_ahead.cpp: what later pictures show.
-  [[nodiscard]] static bool isFile(const std::string& url);
-  [[nodiscard]] std::unique_ptr<TrackReader> scoutOf(const std::string& url, int stream) const;
-  [[nodiscard]] std::vector<Frame> laterPictures(MediaTime seen, int stream);
-  [[nodiscard]] Result<Frame> depthIn(const Frame& stored);
-  void checkReach(const Frame& picture);
-  [[nodiscard]] Frame tellingPicture(const Frame& first, const std::string& url, int stream);
   // In pair_reader.cpp: the next pair.
   Result<std::optional<Frame>> readColor();
   Result<std::optional<Frame>> nextColor();
@@ -94,40 +84,8 @@ struct PairReader::Impl {
   Result<void> goOn();
   void leaveColor();
 
-  // The stream, with the user's frame rate if one was given.
-  [[nodiscard]] StreamInfo asTold(const StreamInfo& stream) const {
-    StreamInfo told = stream;
-    if (options.frames_per_s) told.frame_period = fromSeconds(1 / *options.frames_per_s);
-    return told;
-  }
-  [[nodiscard]] bool isPacked() const noexcept { return relievo::isPacked(info.packing); }
-  // The colour's picture holds the depth or a second view as well.
-  [[nodiscard]] bool isInOnePicture() const noexcept {
-    return isPacked() || isStereo(info.packing) || info.packing == Packing::StereoLayers;
-  }
-  [[nodiscard]] bool isLoss(const Error& error) const noexcept {
-    using enum ErrorCode;
-    return remote && (error.code == Lost || error.code == Timeout || error.code == Io);
-  }
-  // The user named a depth source or packing: `open` fails without depth.
-  [[nodiscard]] bool isDepthRequired() const noexcept {
-    return !options.depth_url.empty() || options.packing == Packing::Tracks;
-  }
-  [[nodiscard]] const std::string& depthUrl() const noexcept {
-    return options.depth_url.empty() ? options.url : options.depth_url;
-  }
-  std::unexpected<Error> failOn(const std::string& thing, const Error& error) {
-    failed_thing = thing;
-    return std::unexpected(error);
-  }
-
-  Backends backends;
-  SourceOptions options;
-  FilmInfo info;
-  std::string failed_thing;
   PairCounters counters;
-
-  OpenSources sources;
+  FilmScout scout{*this};
   std::deque<Frame> color_ahead;     // read, not yet delivered
   std::deque<Subtitle> words_ahead;  // of a subtitle file
   DepthClues clues;                  // of the depth, as far as they were looked at
@@ -151,19 +109,11 @@ struct PairReader::Impl {
     std::optional<Frame> again;       // a picture that was supplied before the order was known
   };
   Reordering reordering;
-  // Depth beside the colour, in the same source.
-  struct DepthBeside {
-    std::optional<std::size_t> track;    // TrackReader::select
-    const StreamInfo* stream = nullptr;  // valid while the film is open
-  };
-  DepthBeside depth_beside;
   // Two tracks without tags: the first is taken as the colour, unless the pictures of both show the opposite.
   enum class Exchange : std::uint8_t { No, Wanted, Done };
   Exchange exchange = Exchange::No;
-  std::atomic<bool> remote{false};  // the colour's source; asked by any thread
-  bool live = false;                // likewise
-  Duration color_shift{0};          // added to the session's timestamps to get the film's
-  MediaTime goes_on_at;             // film time just after the last colour picture
+  Duration color_shift{0};  // added to the session's timestamps to get the film's
+  MediaTime goes_on_at;     // film time just after the last colour picture
   std::optional<DepthFollower> depth;
   MaterialPictures material;
   std::optional<Registrar> registrar;  // the user's, or the film's own

@@ -140,9 +140,9 @@ void PairReader::Impl::takeSmoothest(TrackPlan& plan) {
   if (std::ranges::all_of(tracks, [&](auto* track) { return track == plan.depth; })) return;
   double least = 1, planned = 1;
   for (const StreamInfo* const track : tracks) {
-    const auto scout = scoutOf(options.url, track->index);
-    if (!scout) return;
-    const auto picture = scout->next(0);
+    const auto reader = scout.readerOf(options.url, track->index);
+    if (!reader) return;
+    const auto picture = reader->next(0);
     if (!picture || !*picture || (*picture)->model != ColorModel::Gray) return;
     const double roughness = roughnessOf(**picture);
     if (track == plan.depth) planned = roughness;
@@ -160,7 +160,7 @@ void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_beside.stream != nullptr || isPacked())
     return;
   if (options.registration) return;
-  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const Frame look = scout.tellingPicture(color_ahead[0], options.url, color.index);
   if (takeSaidViews(color, look) || lookForAlpha(color, look)) return;
   if (isDepthAlone(look, options.url)) {
     info.packing = Packing::DepthAlone;
@@ -202,9 +202,9 @@ Result<const Frame*> PairReader::Impl::firstDepth() {
   auto first = depth->peek();
   if (!first || *first == nullptr || registrar) return first;
   if (reordering.order != SampleOrder::AsStored) return firstAsStated(**first);
-  const StreamInfo& stream = sources.depth() ? sources.depth()->stream() : *depth_beside.stream;
+  const StreamInfo& stream = depthStream();
   takeTags(stream);
-  const Frame look = tellingPicture(**first, depthUrl(), stream.index);
+  const Frame look = scout.tellingPicture(**first, depthUrl(), stream.index);
   const KnownKind* const kind = kindOf(clues, look);
   const SampleOrder order = kind != nullptr && kind->order != SampleOrder::AsStored ? kind->order : orderOf(kind, look);
   if (order == SampleOrder::AsStored) return first;

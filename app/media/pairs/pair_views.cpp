@@ -116,7 +116,7 @@ void PairReader::Impl::showViews(Packing packing, const char* by) {
 
 // Checks whether the picture can be what the user has stated.
 void PairReader::Impl::checkViews(const StreamInfo& color) {
-  const Frame look = tellingPicture(color_ahead[0], options.url, color.index);
+  const Frame look = scout.tellingPicture(color_ahead[0], options.url, color.index);
   const auto seen = viewsOf(look, info.packing, views.right_first);
   if (!seen || !areOtherPictures(seen->left, seen->right)) return;
   views.are_other_pictures = true;
