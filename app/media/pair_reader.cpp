@@ -144,11 +144,11 @@ Result<void> PairReader::open(const SourceOptions& options) {
   impl_->sources.allow();
   impl_->failed_thing.clear();
   impl_->options = options;
-  impl_->exchange = Impl::Exchange::No;
+  impl_->exchanged = false;
   auto opened = impl_->openFilm();
-  if (opened && impl_->exchange == Impl::Exchange::Wanted) {
+  if (opened && impl_->wants_exchange) {
     close();
-    impl_->exchange = Impl::Exchange::Done;
+    impl_->exchanged = true;
     opened = impl_->openFilm();
   }
   if (!opened) close();
@@ -183,30 +183,18 @@ bool PairReader::isSourceLost(const Error& error) const noexcept {
   return impl_->isLoss(error) && impl_->failed_thing == impl_->options.url;
 }
 
-// The next sound, with the film's timestamp.
 std::optional<AudioChunk> PairReader::nextSound() {
-  auto chunk = impl_->sources.color() ? impl_->sources.color()->nextSound() : std::nullopt;
-  if (chunk) chunk->pts += impl_->color_shift;
-  return chunk;
+  return impl_->words.nextSound(impl_->color_shift);
 }
 
 std::optional<Subtitle> PairReader::nextSubtitle() {
-  if (!impl_->words_ahead.empty()) {
-    std::optional<Subtitle> subtitle(std::move(impl_->words_ahead.front()));
-    impl_->words_ahead.pop_front();
-    return subtitle;
-  }
-  auto subtitle = impl_->sources.color() ? impl_->sources.color()->nextWords() : std::nullopt;
-  if (!subtitle) return subtitle;
-  subtitle->begin += impl_->color_shift;
-  if (subtitle->end) *subtitle->end += impl_->color_shift;
-  return subtitle;
+  return impl_->words.nextWords(impl_->color_shift);
 }
 
 void PairReader::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
   if (!impl_->sources.color()) return;
-  if (std::exchange(impl_->info.sound, sound) != sound) impl_->openSound();
-  if (std::exchange(impl_->info.words, words) != words) impl_->openWords();
+  if (std::exchange(impl_->info.sound, sound) != sound) impl_->words.openSound();
+  if (std::exchange(impl_->info.words, words) != words) impl_->words.openWords();
 }
 
 bool PairReader::readAhead() {
@@ -221,13 +209,13 @@ void PairReader::close() noexcept {
   film.reordering = {};
   film.own = {};
   film.color_ahead.clear();
-  film.words_ahead.clear();
+  film.words.close();
   film.color_shift = Duration(0);
   film.goes_on_at = MediaTime{};
   film.counters = {};
   film.key_step = Duration(0);
   film.left_out = {};
-  film.reach_open = false;
+  film.reach_open = film.wants_exchange = false;
   film.OpenFilm::close();
 }
 

@@ -16,6 +16,10 @@ namespace relievo {
 // One thread, except `remote`, which any thread may ask.
 struct OpenFilm {
   static constexpr std::size_t kColorTrack = 0;
+  static constexpr Error kNoPicture{
+      ErrorCode::Corrupt, 0,
+      "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
+      "samples"};
 
   explicit OpenFilm(PairReader::Backends b) : backends(std::move(b)) {}
 
@@ -65,10 +69,12 @@ struct OpenFilm {
   struct DepthBeside {
     std::optional<std::size_t> track;    // TrackReader::select
     const StreamInfo* stream = nullptr;  // valid while the film is open
+    std::optional<Error> refused;        // why it cannot be read
   };
   DepthBeside depth_beside;
   std::atomic<bool> remote{false};  // the colour's source
   bool live = false;                // likewise
+  bool exchanged = false;           // of two tracks without tags the second is the colour: their pictures show it
 };
 
 }  // namespace relievo

@@ -121,8 +121,8 @@ Result<void> PairReader::Impl::describeTrack(const Frame& first) {
   }
   lookForCode(*look);
   const bool photo = colored && clues.code == DepthCode::Luma && packedOrder(*look) == SampleOrder::AsStored;
-  if (guessed && photo && exchange == Exchange::No && lookAt(color_ahead[0]).gray >= kAllGray) {
-    exchange = Exchange::Wanted;
+  if (guessed && photo && !exchanged && !wants_exchange && lookAt(color_ahead[0]).gray >= kAllGray) {
+    wants_exchange = true;
     return {};
   }
   return describe(first, *look, color_ahead[0], stream);

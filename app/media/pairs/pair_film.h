@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "app/media/depth_follower.h"
-#include "app/media/pairs/film_scout.h"
+#include "app/media/pairs/film_inputs.h"
+#include "app/media/pairs/film_plan.h"
 #include "app/media/pairs/left_out_pictures.h"
 #include "app/media/pairs/material_pictures.h"
 #include "app/media/pairs/open_film.h"
-#include "app/media/reading/code_count.h"
+#include "app/media/pairs/sound_and_words.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/tracks/track_reader.h"
 
@@ -24,26 +25,13 @@ struct PairReader::Impl : OpenFilm {
   using OpenFilm::OpenFilm;
 
   // In pair_opening.cpp.
-  Result<void> openReader();
-  void takeFilmOverDepth();
   Result<void> openFilm();
-  void takeDepthBeside(const StreamInfo& color);
   Result<void> openColor(const StreamInfo& color);
-  // `depth`: of the colour's source, if the depth is no other source.
-  Result<void> selectDepth(const StreamInfo* depth, const StreamInfo& color);
   void lookForRegistration(const StreamInfo& color);
   Result<void> openDepth(const StreamInfo& color);
-  void countTracks(const TrackPlan& plan);
   void meet(const DepthSource::Session& session, MediaTime first);
-  // In pair_words.cpp: sound and subtitles.
-  [[nodiscard]] const StreamInfo* streamOf(const FilmTrack& track) const;
-  void openSound();
-  void openWords();
-  void readWordsOf(const std::string& path);
   // In pair_reading.cpp: where the depth is.
   void lookAround();
-  Result<TrackPlan> planFilm();
-  void takeSmoothest(TrackPlan& plan);
   void lookForHalves(const StreamInfo& color);
   Result<const Frame*> firstDepth();
   Result<const Frame*> firstAsStated(const Frame& first);
@@ -86,9 +74,10 @@ struct PairReader::Impl : OpenFilm {
 
   PairCounters counters;
   FilmScout scout{*this};
-  std::deque<Frame> color_ahead;     // read, not yet delivered
-  std::deque<Subtitle> words_ahead;  // of a subtitle file
-  DepthClues clues;                  // of the depth, as far as they were looked at
+  FilmInputs inputs{*this};
+  SoundAndWords words{*this};
+  std::deque<Frame> color_ahead;  // read, not yet delivered
+  DepthClues clues;               // of the depth, as far as they were looked at
   // Depth that is packed into the colour's picture.
   struct PackedDepth {
     GrayFrom gray = GrayFrom::Luma;
@@ -109,9 +98,6 @@ struct PairReader::Impl : OpenFilm {
     std::optional<Frame> again;       // a picture that was supplied before the order was known
   };
   Reordering reordering;
-  // Two tracks without tags: the first is taken as the colour, unless the pictures of both show the opposite.
-  enum class Exchange : std::uint8_t { No, Wanted, Done };
-  Exchange exchange = Exchange::No;
   Duration color_shift{0};  // added to the session's timestamps to get the film's
   MediaTime goes_on_at;     // film time just after the last colour picture
   std::optional<DepthFollower> depth;
@@ -126,7 +112,8 @@ struct PairReader::Impl : OpenFilm {
   OwnDepth own;          // of `sources.depth()`, which reads `depth_url`
   Duration key_step{0};  // of the last seek
   LeftOutPictures left_out;
-  bool reach_open = false;  // near and far come from a few pictures, and nothing beyond them was reported yet
+  bool wants_exchange = false;  // the pictures of two tracks show that the second is the colour
+  bool reach_open = false;      // near and far come from a few pictures, and nothing beyond them was reported yet
 };
 
 }  // namespace relievo

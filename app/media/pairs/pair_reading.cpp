@@ -104,57 +104,6 @@ void PairReader::Impl::lookAround() {
   }
 }
 
-Result<TrackPlan> PairReader::Impl::planFilm() {
-  using enum CalibrationOrigin;
-  const MediaSource& source = sources.color()->source();
-  const bool two_sources = !options.depth_url.empty();
-  const KnownKind *const as = options.as, *const place = clues.place.kind;
-  auto plan = planTracks(source, isInOnePicture() ? info.packing : options.packing, two_sources);
-  if (!plan) return plan;
-  if (exchange == Exchange::Done && plan->depth != nullptr) {
-    std::swap(plan->color, plan->depth);
-    clues.why.emplace_back("the first track is gray and the second is not: the second is the colour");
-  }
-  if (plan->depth != nullptr) takeSmoothest(*plan);
-  clues.packing_by = options.packing != Packing::Auto || two_sources ? CommandLine
-                     : plan->by_tag                                  ? ContainerTags
-                                                                     : StreamSignalling;
-  if (options.packing != Packing::Auto || two_sources || plan->depth != nullptr || plan->by_tag) return plan;
-  if (as != nullptr && relievo::isPacked(as->packing)) {
-    plan->packing = as->packing;
-    clues.packing_by = StatedKind;
-  } else if (as == nullptr && place != nullptr && clues.place.origin != Name && relievo::isPacked(place->packing)) {
-    plan->packing = place->packing;
-    clues.packing_by = clues.place.origin;
-  }
-  return plan;
-}
-
-// A camera's infrared is stored as its depth is, or in 8 bits. The smoothest track is the depth if the one that was
-// planned is clearly rougher.
-void PairReader::Impl::takeSmoothest(TrackPlan& plan) {
-  constexpr double kClearly = 2;
-  const MediaSource& source = sources.color()->source();
-  const StreamInfo* smoothest = plan.depth;
-  const auto tracks = likelyDepthTracks(source);
-  if (std::ranges::all_of(tracks, [&](auto* track) { return track == plan.depth; })) return;
-  double least = 1, planned = 1;
-  for (const StreamInfo* const track : tracks) {
-    const auto reader = scout.readerOf(options.url, track->index);
-    if (!reader) return;
-    const auto picture = reader->next(0);
-    if (!picture || !*picture || (*picture)->model != ColorModel::Gray) return;
-    const double roughness = roughnessOf(**picture);
-    if (track == plan.depth) planned = roughness;
-    if (track == plan.depth && roughness == 1) return;  // perhaps a sensor that has not begun to measure
-    if (roughness < least) least = roughness, smoothest = track;
-  }
-  if (smoothest == plan.depth || planned <= kClearly * least) return;
-  plan.depth = smoothest;
-  plan.color = findColorTrack(source, smoothest);
-  clues.why.push_back(print("track %d is the smoothest of the gray ones: it is the depth", smoothest->index));
-}
-
 // If nothing states where the depth is and there is only one track, the picture itself may show it.
 void PairReader::Impl::lookForHalves(const StreamInfo& color) {
   if (options.packing != Packing::Auto || !options.depth_url.empty() || depth_beside.stream != nullptr || isPacked())
