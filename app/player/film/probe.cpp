@@ -19,6 +19,9 @@
 namespace relievo {
 namespace {
 
+constexpr const char* kHasPhotos =
+    "these are photos that hold their depth or two views each; name one of them, or play them all with relievo play";
+
 using Json = nlohmann::ordered_json;
 
 constexpr int kPairsLookedAt = 8;
@@ -153,6 +156,9 @@ std::string trackLines(const ProbeResult& r) {
 
 Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
   ProbeResult result;
+  if (options.depth_url.empty() && !options.frames_per_s && photosIn(options.url, backends.make_source)) {
+    return failOn(options.url, {ErrorCode::NotFound, 0, kHasPhotos});
+  }
   const bool may_be_folder = options.depth_url.empty() && options.packing == Packing::Auto;
   const auto pair = may_be_folder ? filmOverDepth(options.url) : std::nullopt;
   for (const std::string& url : {pair ? pair->film : options.url, pair ? pair->depth : options.depth_url}) {

@@ -8,7 +8,9 @@
 #include <fstream>
 #include <vector>
 
+#include "app/media/film_folder.h"
 #include "drivers/photo/photo.h"
+#include "drivers/registry.h"
 #include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
@@ -211,6 +213,32 @@ TEST(DepthJpeg, ASizeThatLiesMakesNoMemory) {
   segment.replace(whole, 8, "\xf0\xff\xff\xff\xef\xff\xff\xff");
   write(folder / "a.jpg", standardXmp("<rdf:Description/>") + segment);
   EXPECT_FALSE(test::openFilm({.url = folder / "a.jpg"}).info.has_depth);
+}
+
+TEST(DepthJpeg, AFolderOfPortraitsIsAListOfPhotos) {
+  const test::TemporaryFolder folder;
+  const auto listed = [&](const std::string& url) {
+    std::vector<std::string> titles;
+    for (const PlaylistEntry& photo : photosIn(url, drivers::makeMediaSource).value_or(std::vector<PlaylistEntry>{})) {
+      titles.push_back(photo.title);
+    }
+    return titles;
+  };
+  const std::string here = std::filesystem::path(folder / "x").parent_path();
+  write(folder / "IMG_2.jpg", "");
+  write(folder / "IMG_10.jpg", "");
+  EXPECT_TRUE(listed(here).empty()) << "a series of pictures";
+  write(folder / "IMG_9.jpg", standardXmp("<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m") +
+                                          "GDepth:Data=\"" + base64(inversePng()) + "\"/>"));
+  EXPECT_EQ(listed(here), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10"}));
+  EXPECT_EQ(listed(folder / "IMG_*.jpg").size(), 3U) << "as a shell has listed them";
+  EXPECT_TRUE(listed(folder / "IMG_1*.jpg").empty()) << "none of these holds depth";
+  std::ofstream(folder / "IMG_9.mov") << "moving photo";
+  std::ofstream(folder / "IMG_11.mov") << "film";
+  EXPECT_EQ(listed(here), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10", "IMG_11"}));
+  for (const char* const film : {"IMG_9.mov", "IMG_11.mov"}) std::filesystem::remove(folder / film);
+  for (const int k : {2, 9, 10}) std::ofstream(folder / ("IMG_" + std::to_string(k) + "_depth.png")) << inversePng();
+  EXPECT_TRUE(listed(here).empty()) << "their depth lies beside them";
 }
 
 }  // namespace
