@@ -109,9 +109,41 @@ bool isOneOf(const std::string& word, std::initializer_list<const char*> words) 
   return std::ranges::find(words, word) != words.end();
 }
 
-bool hasPictures(const fs::path& folder) {
-  const auto isPicture = [](const FolderEntry& entry) { return mediaKindOf(entry.name) == MediaKind::Picture; };
-  return std::ranges::any_of(entriesOf(folder), isPicture);
+std::vector<std::string> picturesOf(const fs::path& folder) {
+  std::vector<std::string> pictures;
+  for (const FolderEntry& entry : entriesOf(folder)) {
+    if (mediaKindOf(entry.name) == MediaKind::Picture) pictures.push_back(entry.name);
+  }
+  return pictures;
+}
+
+// The only array among the pictures of `folder`; empty if it is the depth of one of the pictures `beside`.
+std::string arrayAmong(const std::vector<std::string>& pictures, const fs::path& folder,
+                       const std::vector<std::string>& beside) {
+  const auto isArray = [](const std::string& name) { return endingOf(name) == "npy"; };
+  const auto array = std::ranges::find_if(pictures, isArray);
+  if (std::ranges::count_if(pictures, isArray) != 1) return "";
+  const bool of_one = std::ranges::any_of(beside, [&](const std::string& name) {
+    return name != *array &&
+           (lowerCase(stemOf(name)) == lowerCase(stemOf(*array)) || !depthOf(name, byStem({*array})).empty());
+  });
+  return of_one ? "" : (folder / *array).string();
+}
+
+// Colour pictures, in `place` or its folder `color`, and the array of their depths, in `place` or its folder `depth`.
+std::optional<FilmOverDepth> picturesOverArray(const fs::path& place, const std::string& color,
+                                               const std::string& depth) {
+  std::vector<std::string> pictures = picturesOf(place / color);
+  const std::vector<std::string> depths = picturesOf(place / depth);
+  FilmOverDepth found{.film = (place / color).string(), .depth = arrayAmong(depths, place / depth, pictures)};
+  if (found.depth.empty() || (!depth.empty() && depths.size() > 1)) return std::nullopt;
+  std::erase_if(pictures, [](const std::string& name) { return endingOf(name) == "npy"; });
+  if (pictures.size() < 2) return std::nullopt;
+  if (!color.empty()) return found;
+  for (std::string& name : pictures) name = place / name;
+  const auto series = seriesOf(pictures);
+  if (series) found.film = *series;
+  return series ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace
@@ -120,24 +152,31 @@ std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
   if (!isFolder(folder)) return std::nullopt;
   const fs::path place(folder);
   std::vector<std::string> films, files;
-  FilmOverDepth found;
+  std::string color, depth;
   for (const auto& [name, is] : entriesOf(folder)) {
     if (is == FolderEntry::Kind::File) files.push_back(name);
     if (is == FolderEntry::Kind::File && mediaKindOf(name) == MediaKind::Film && !saysDepth(name))
       films.push_back(name);
-    if (is != FolderEntry::Kind::Folder || !hasPictures(place / name)) continue;
-    if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) return std::nullopt;
-    if (isOneOf(name, {"depth", "depths", "depth_images"})) found.depth = place / name;
+    if (is != FolderEntry::Kind::Folder || picturesOf(place / name).empty()) continue;
+    if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) color = name;
+    if (isOneOf(name, {"depth", "depths", "depth_images"})) depth = name;
   }
+  if (films.empty()) return picturesOverArray(place, color, depth);
+  if (!color.empty()) return std::nullopt;
   const auto isColor = [](const std::string& name) {
     return isOneOf(stemOf(name), {"rgb", "color", "colour", "video", "image"});
   };
   const auto film = films.size() == 1 ? films.begin() : std::ranges::find_if(films, isColor);
   if (film == films.end()) return std::nullopt;
-  if (found.depth.empty() && films.size() == 1) found.depth = depthFileOf(*film, files, place);
-  if (found.depth.empty()) return std::nullopt;
-  found.film = place / *film;
-  return found;
+  FilmOverDepth found{.film = place / *film, .depth = ""};
+  if (!depth.empty()) {
+    const std::vector<std::string> pictures = picturesOf(place / depth);
+    const std::string array = pictures.size() == 1 ? arrayAmong(pictures, place / depth, {}) : "";
+    found.depth = array.empty() ? (place / depth).string() : array;
+  } else if (films.size() == 1) {
+    found.depth = depthFileOf(*film, files, place);
+  }
+  return found.depth.empty() ? std::nullopt : std::optional(found);
 }
 
 std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names) {

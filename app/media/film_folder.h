@@ -27,12 +27,12 @@ namespace relievo {
 
 // A recording of a colour film and its depth in one folder: a folder of depth pictures, as iPhone scanners write them
 // ("rgb.mp4" and "depth"); if it has no other film, also a file of depth by `depthBeside`'s names ("color.mp4" and
-// "depth.npy"), or pictures whose names say depth.
+// "depth.npy"), or pictures whose names say depth. Or colour pictures and the depth of all of them in one array.
 struct FilmOverDepth {
   std::string film, depth;  // paths, or a pattern
 };
 // nullopt if `folder` is no folder, has no depth, has a folder of colour pictures too, or has no film that is the
-// colour by its name or because it is the only one.
+// colour by its name or because it is the only one, and no such pictures.
 [[nodiscard]] std::optional<FilmOverDepth> filmOverDepth(const std::string& folder);
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or

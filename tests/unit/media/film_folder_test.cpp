@@ -123,6 +123,29 @@ TEST_F(FilmFolder, AFilmAndADepthOfAnyKindAreOneRecording) {
   }
 }
 
+TEST_F(FilmFolder, AnArrayIsTheDepthOfTheFilmOrThePicturesBesideIt) {
+  for (const char* const name : {"a", "a/rgb", "a/depth", "b", "b/rgb", "c", "d", "d/depth"})
+    std::filesystem::create_directory(folder_ / name);
+  files({"a/rgb/1.png", "a/rgb/2.png", "a/depth/all.npy", "b/rgb/1.png", "b/rgb/2.png", "b/depth.npy", "c/f1.jpg",
+         "c/f2.jpg", "c/depth.npy", "d/film.mp4", "d/depth/all.npy"});
+  const auto expect = [&](const char* name, const char* film, const char* depth) {
+    const auto found = filmOverDepth(folder_ / name);
+    ASSERT_TRUE(found) << name;
+    EXPECT_EQ(found->film, folder_ / film);
+    EXPECT_EQ(found->depth, folder_ / depth);
+  };
+  expect("a", "a/rgb", "a/depth/all.npy");
+  expect("b", "b/rgb", "b/depth.npy");
+  expect("c", "c/f*.jpg", "c/depth.npy");
+  expect("d", "d/film.mp4", "d/depth/all.npy");
+  files({"a/depth/more.npy", "c/f2_depth.npy", "d/depth/more.npy"});
+  EXPECT_FALSE(filmOverDepth(folder_ / "a")) << "an array for each picture";
+  EXPECT_FALSE(filmOverDepth(folder_ / "c"));
+  expect("d", "d/film.mp4", "d/depth");
+  std::filesystem::remove(folder_ / "c/depth.npy");
+  EXPECT_FALSE(filmOverDepth(folder_ / "c")) << "of one picture alone";
+}
+
 TEST(FilmNames, SayDepthByTheWord) {
   for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm"}) EXPECT_TRUE(saysDepth(name)) << name;
   for (const char* name : {"clip.mp4", "depth/1.png", "depths.mkv", "outdepth.mkv"})
