@@ -13,7 +13,8 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13, kUnixUsDigits = 16, kUnixNsDigits = 19;
+constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13, kUnixUsDigits = 16, kUnixNsDigits = 19,
+                      kDateDigits = 14;
 constexpr std::int64_t kMostSeconds = 9'000'000'000;
 
 // A run of digits, or of anything else.
@@ -137,7 +138,8 @@ std::optional<std::size_t> countingRun(const std::vector<std::string>& names) {
 }
 
 // A single name counts by its last run of digits.
-std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string>& names) {
+std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string>& names,
+                                                   std::optional<std::int64_t> (*read)(std::string_view) noexcept) {
   auto place = countingRun(names);
   if (names.size() == 1) {
     const std::vector<Run> runs = runsOf(stemOf(names.front()));
@@ -146,43 +148,59 @@ std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string
     }
   }
   if (!place) return std::nullopt;
-  return readAll(names, [&](std::string_view stem) { return countIn(runsOf(stem)[*place].text); });
+  return readAll(names, [&](std::string_view stem) { return read(runsOf(stem)[*place].text); });
+}
+
+// By their size. At least one number, in order.
+std::vector<std::int64_t> stepsOf(const std::vector<std::int64_t>& values) {
+  std::vector<std::int64_t> steps(values.size());
+  std::adjacent_difference(values.begin(), values.end(), steps.begin());
+  steps.erase(steps.begin());
+  std::ranges::sort(steps);
+  return steps;
+}
+
+// Whether numbers that are too great to count pictures are the ids of a web site: they lie far apart, and their steps
+// are of any size. Times since a device was switched on may be irregular, but lie closer.
+bool areIds(std::vector<std::int64_t> values) {
+  std::ranges::sort(values);
+  if (values.front() <= kMostSeconds || values.back() - values.front() < values.front() / 4) return false;
+  const std::vector<std::int64_t> steps = stepsOf(values);
+  const std::int64_t usual = steps.empty() ? 0 : steps[(steps.size() - 1) / 2];
+  const auto odd = std::ranges::count_if(steps, [&](auto step) { return step < usual / 2 || step / 2 > usual; });
+  return 4 * odd > std::ssize(steps);
 }
 
 std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>& names) {
-  const auto place = countingRun(names);
-  if (!place) return std::nullopt;
-  auto values = readAll(names, [&](std::string_view stem) { return integerIn(runsOf(stem)[*place].text); });
-  const std::int64_t ns = values ? clockUnit(*values) : 0;
+  auto values = numbersIn(names, integerIn);
+  const std::int64_t ns = values && !areIds(*values) ? clockUnit(*values) : 0;
   if (ns == 0) return std::nullopt;
   for (std::int64_t& value : *values) value *= ns;
   return values;
 }
 
-// That of "IMG_20230101_101010", or the first of the day.
+// That of "IMG_20230101_101010" or "20230101101010", or the first of the day.
 std::optional<std::chrono::sys_seconds> momentIn(std::string_view stem) {
   using namespace std::chrono;
-  const auto part = [](const Run& run, std::size_t from, std::size_t count) {
-    return static_cast<int>(*integerIn(run.text.substr(from, count)));
-  };
   const std::vector<Run> runs = runsOf(stem);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const Run& run = runs[i];
-    if (!run.digits || run.text.size() != 8 || !(run.text.starts_with("20") || run.text.starts_with("19"))) continue;
-    const year_month_day date{year(part(run, 0, 4)), month(static_cast<unsigned>(part(run, 4, 2))),
-                              day(static_cast<unsigned>(part(run, 6, 2)))};
-    if (!date.ok()) continue;
-    sys_seconds moment = sys_days(date);
-    if (i + 2 < runs.size() && runs[i + 2].text.size() >= 6) {
-      const Run& time = runs[i + 2];
-      moment += hours(part(time, 0, 2)) + minutes(part(time, 2, 2)) + seconds(part(time, 4, 2));
-    }
-    return moment;
+    std::string digits(runs[i].text);
+    if (!runs[i].digits || !(digits.starts_with("20") || digits.starts_with("19"))) continue;
+    const bool timed = i + 2 < runs.size() && runs[i + 2].text.size() >= 6;
+    if (digits.size() == 8) digits += timed ? runs[i + 2].text.substr(0, 6) : "000000";
+    if (digits.size() != kDateDigits) continue;
+    const auto part = [&](std::size_t from, std::size_t count) {
+      return static_cast<int>(*integerIn(std::string_view(digits).substr(from, count)));
+    };
+    const year_month_day date{year(part(0, 4)), month(static_cast<unsigned>(part(4, 2))),
+                              day(static_cast<unsigned>(part(6, 2)))};
+    if (date.ok()) return sys_days(date) + hours(part(8, 2)) + minutes(part(10, 2)) + seconds(part(12, 2));
   }
   return std::nullopt;
 }
 
-// Whether the names tell moments of several days, most of them some seconds apart. Frames are nearer.
+// Whether the names tell moments of several days, or dates with the time in one number, most of them some seconds
+// apart. Frames are nearer.
 bool tellDays(const std::vector<std::string>& names) {
   constexpr std::chrono::seconds kFar{3};
   std::set<std::chrono::sys_seconds> moments;
@@ -192,7 +210,9 @@ bool tellDays(const std::vector<std::string>& names) {
     moments.insert(*moment);
   }
   const auto dayOf = [](auto moment) { return std::chrono::floor<std::chrono::days>(moment); };
-  if (dayOf(*moments.begin()) == dayOf(*moments.rbegin())) return false;
+  const auto isDate = [](const Run& run) { return run.digits && run.text.size() == kDateDigits; };
+  const bool dates = std::ranges::any_of(runsOf(stemOf(names.front())), isDate);
+  if (!dates && dayOf(*moments.begin()) == dayOf(*moments.rbegin())) return false;
   std::size_t far = 0;
   for (auto each = std::next(moments.begin()); each != moments.end(); ++each) {
     if (*each - *std::prev(each) >= kFar) ++far;
@@ -228,10 +248,7 @@ std::int64_t clockUnit(std::vector<std::int64_t> values) {
   if (values.front() >= kUnixMs) {
     ns = values.front() >= kUnixNs ? 1 : values.front() >= kUnixUs ? 1000 : 1'000'000;
   } else if (values.size() >= kFewest || (values.size() > 1 && values.front() > kMostSeconds)) {
-    std::vector<std::int64_t> steps(values.size());
-    std::adjacent_difference(values.begin(), values.end(), steps.begin());
-    steps.erase(steps.begin());
-    std::ranges::sort(steps);
+    const std::vector<std::int64_t> steps = stepsOf(values);
     const std::int64_t usual = steps[(steps.size() - 1) / 2];
     const bool regular = usual / kJitter <= steps.front();  // the numbers of photos are not
     const bool is_30_hz = (usual == 33 || usual == 34) &&
@@ -260,7 +277,7 @@ NameValues valuesOf(const std::vector<std::string>& names) {
   if (names.empty()) return {};
   if (auto times = readAll(names, timeIn)) return {NameKind::Seconds, std::move(*times)};
   if (auto times = clockIn(names)) return {NameKind::Seconds, std::move(*times)};
-  if (auto numbers = numbersIn(names)) return {NameKind::Numbers, std::move(*numbers)};
+  if (auto numbers = numbersIn(names, countIn)) return {NameKind::Numbers, std::move(*numbers)};
   return {NameKind::Ranks, ranksOf(names)};
 }
 
@@ -271,7 +288,10 @@ bool areUnrelated(const std::vector<std::string>& names) {
     return words;
   };
   const std::string words = wordsOf(names.front());
-  return std::ranges::any_of(names, [&](const auto& name) { return wordsOf(name) != words; }) || tellDays(names);
+  if (std::ranges::any_of(names, [&](const auto& name) { return wordsOf(name) != words; })) return true;
+  if (tellDays(names)) return true;
+  const auto numbers = numbersIn(names, integerIn);
+  return numbers && areIds(*numbers);
 }
 
 }  // namespace relievo::pictures

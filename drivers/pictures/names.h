@@ -37,11 +37,12 @@ struct NameValues {
 //   40000000.png, 80000000.png, ..   ns from the start if a million and more apart, us if ten thousand
 //   100000.png, 100034.png, ..       ms, as clockUnit says
 //   0000012-000000400431.png         a number and 12 digits of us (Redwood)
+// Numbers above 9e9 whose steps are of any size, such as the ids of a web site's photos, are neither.
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
 [[nodiscard]] NameValues valuesOf(const std::vector<std::string>& names);
 
 // Whether names of one series differ in more than digits, or in dates ("IMG_20230101_101010") whose times are mostly
-// some seconds apart, as those of photos do.
+// some seconds apart, as those of photos do, or in ids.
 [[nodiscard]] bool areUnrelated(const std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

@@ -156,5 +156,19 @@ TEST_F(Pictures, DatesThatDifferArePhotos) {
   EXPECT_EQ(read(folder_ / "f").color.back(), "66.6667 f/images/f_0003_162408.jpg");
 }
 
+TEST_F(Pictures, IdsOfPhotosAreNoTimes) {
+  for (const char* name : {"10815824997", "23456789012", "31415926535", "48151623421", "48151623999"})
+    file("p/images/" + std::string(name) + ".jpg"), file("p/depth/" + std::string(name) + ".png");
+  const Film ids = read(folder_ / "p");
+  EXPECT_EQ(ids.color.back(), "20000 p/images/48151623999.jpg");
+  EXPECT_EQ(ids.depth.back(), "20000 p/depth/48151623999.png");
+}
+
+TEST_F(Pictures, DatesInOneNumberArePhotos) {
+  for (const char* name : {"20240131123456", "20240131123512", "20240131124000"})
+    file("p/images/" + std::string(name) + ".jpg"), file("p/depth/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "p").color.back(), "10000 p/images/20240131124000.jpg") << "on one day";
+}
+
 }  // namespace
 }  // namespace relievo
