@@ -20,7 +20,7 @@ namespace relievo::pictures {
 [[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out);
 
 // Takes depth out of `names` where photos and their depth differ in the ending alone: "1.jpg" beside a gray "1.png" of
-// 16 bits, whose head is read, or "1.pfm". Empty if there is none.
+// 16 bits, whose head is read, or "1.pfm"; "1.png" beside "1.dpt" (Sintel). Empty if there is none.
 [[nodiscard]] std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

@@ -170,5 +170,13 @@ TEST_F(Pictures, DatesInOneNumberArePhotos) {
   EXPECT_EQ(read(folder_ / "p").color.back(), "10000 p/images/20240131124000.jpg") << "on one day";
 }
 
+TEST_F(Pictures, SintelsDepthHasItsPicturesNames) {
+  for (const char* name : {"frame_0001", "frame_0002"})
+    file("s/" + std::string(name) + ".png"), file("s/" + std::string(name) + ".dpt");
+  const Film film = read(folder_ / "s", 10);
+  EXPECT_THAT(film.color, ElementsAre("0 s/frame_0001.png", "100 s/frame_0002.png"));
+  EXPECT_THAT(film.depth, ElementsAre("0 s/frame_0001.dpt", "100 s/frame_0002.dpt"));
+}
+
 }  // namespace
 }  // namespace relievo
