@@ -84,7 +84,8 @@ void addMessages(Bytes data, Tags& tags) {
     const Bytes uuids = payload.first(std::min(payload.size(), 2 * kStreamTagsUuid.size()));
     const auto own = std::search(uuids.begin(), uuids.end(), kStreamTagsUuid.begin(), kStreamTagsUuid.end());
     if (own == uuids.end()) continue;
-    const Bytes text(own + kStreamTagsUuid.size(), payload.end());
+    // FFmpeg's h264_metadata ends it with a zero byte.
+    const Bytes text(own + kStreamTagsUuid.size(), std::find(own + kStreamTagsUuid.size(), payload.end(), 0));
     addLines({reinterpret_cast<const char*>(text.data()), text.size()}, tags);
   }
 }

@@ -37,7 +37,10 @@ TEST(FfmpegSource, AStreamThatIsJoinedBehindAKeyFrameHasItsTags) {
   const auto source = makeFfmpegSource();
   EXPECT_TRUE(source->open("tcp://127.0.0.1:" + server.port).has_value());
   int tagged = 0;
-  for (const StreamInfo& stream : source->streams()) tagged += stream.tags.contains("DEPTH_LAW") ? 1 : 0;
+  for (const StreamInfo& stream : source->streams()) {
+    const auto law = stream.tags.find("DEPTH_LAW");
+    tagged += law != stream.tags.end() && law->second == "inverse" ? 1 : 0;
+  }
   EXPECT_EQ(tagged, 2);
   source->close();
   sender.join();
