@@ -9,11 +9,17 @@
 namespace relievo {
 namespace {
 
+// The frame's matrix; BT.601 if it states none, whatever its size. Cameras and editors state theirs; a program that
+// draws depth in colours hands RGB to OpenCV or FFmpeg, which convert it by BT.601 and state nothing.
+LumaWeights weightsOf(const Frame& frame) noexcept {
+  return frame.matrix == ColorMatrix::Unspecified ? LumaWeights{} : lumaWeights(frame);
+}
+
 // Red, green and blue (0 to 1) of a frame's components, each a share of full scale.
 std::array<double, 3> toRgb(const Frame& frame, const std::array<double, 3>& share) noexcept {
   if (frame.model == ColorModel::Rgb) return share;
   const bool full = frame.range == ColorRange::Full;
-  const auto [kr, kb] = lumaWeights(frame);
+  const auto [kr, kb] = weightsOf(frame);
   const double y = full ? share[0] : (255 * share[0] - 16) / 219;
   const double u = full ? share[1] - 128.0 / 255 : (255 * share[1] - 128) / 224;
   const double v = full ? share[2] - 128.0 / 255 : (255 * share[2] - 128) / 224;

@@ -102,6 +102,21 @@ TEST(ColorMapFit, FindsTheMapOfACodedPictureAndReadsItsDepth) {
   }
 }
 
+// As OpenCV and FFmpeg write it from RGB, however large; players take such a film to be by BT.709.
+TEST(ColorMapFit, ALargeFilmThatStatesNoMatrixIsReadByBt601) {
+  constexpr int kLarge = 8;
+  ClipTrack track = coded([](int c, int r) { return jet(depthAt(c / kLarge, r / kLarge)); }, "18");
+  track.width = kLarge * kCols;
+  track.height = kLarge * kRows;
+  const Frame picture = firstPicture(track, DepthCode::Jet);
+  ASSERT_EQ(picture.height, kLarge * kRows);
+  ASSERT_EQ(picture.matrix, ColorMatrix::Unspecified);
+  const auto fit = bestColorMap(picture);
+  ASSERT_TRUE(fit);
+  EXPECT_EQ(fit->code, DepthCode::Jet);
+  EXPECT_LT(fit->residual, 0.02);
+}
+
 TEST(ColorMapFit, RefusesPhotosGrayNoiseBlackAndOneColour) {
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> any(0, 1);
