@@ -79,8 +79,8 @@ class CodeCount {
 [[nodiscard]] SampleOrder orderOf(const KnownKind* kind, const Frame& stored);
 
 // The picture with its 16-bit codes put in order, as gray: a copy; other pictures, those as stored and
-// those of equal colours by reference.
+// those of equal colours by reference. Even steps are of 12-bit gray, or of a film's luma.
 // Exhausted if out of memory.
-[[nodiscard]] Result<Frame> inOrder(const Frame& depth, SampleOrder order);
+[[nodiscard]] Result<Frame> inOrder(const Frame& depth, const SampleOrder& order);
 
 }  // namespace relievo

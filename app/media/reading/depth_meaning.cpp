@@ -28,6 +28,7 @@ CalibrationLayers saidLayers(const DepthClues& clues) {
 // True if the pictures have the form of the kind.
 bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   if (kind.code) return *kind.code == code;
+  if (kind.order == SampleOrder::Steps) return code == DepthCode::Luma && frame.components[0].bits == EvenSteps::kBits;
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 

@@ -117,6 +117,12 @@ constexpr KnownKind kKinds[] = {
      .help = "Kinect SDK 1, with a number for each person",
      .calibration = kMillimetres,
      .order = SampleOrder::Upper13},
+    {.name = "lerobot",
+     .what = "distances, in 12 bits of their logarithm",
+     .help = "LeRobot's depth films; their range is read from meta/info.json above them, or is 0.01 to 10 m",
+     .calibration = "unit=0.2,invalid=0",
+     .packing = Packing::DepthAlone,
+     .order = SampleOrder(EvenSteps{})},
     {.name = "kinect-raw",
      .what = "raw Kinect disparities",
      .help = "11 bits of a first Kinect, 2047 for a hole",
@@ -181,6 +187,11 @@ constexpr KnownKind kKinds[] = {
 };
 
 }  // namespace
+
+double EvenSteps::unitMm() const noexcept {
+  constexpr double kUsual = 0.2, kHighest = 0xffff;
+  return std::max(kUsual, static_cast<double>(farthest_mm) / kHighest);
+}
 
 const KnownKind* findKind(std::string_view name) noexcept {
   const auto kind =

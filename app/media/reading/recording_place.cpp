@@ -8,8 +8,9 @@
 #include <optional>
 #include <string_view>
 
-#include "app/media/reading/depthkit_file.h"
+#include "app/media/reading/beside/depthkit_file.h"
 #include "app/media/reading/float_reading.h"
+#include "app/media/reading/beside/lerobot_file.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/print.h"
@@ -250,6 +251,7 @@ RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url)
   if (error) return {};
   const fs::path folder = isFolder(path) ? path : path.parent_path();
   if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;
+  if (auto lerobot = lookForLeRobot(path); lerobot.kind != nullptr) return lerobot;
   if (auto scale = lookForScale(folder); scale.kind != nullptr) return scale;
   RecordingPlace place = lookAtNames(path, folder);
   addStereoCamera(path, folder, place);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -18,12 +19,13 @@ struct RecordingPlace {
   CalibrationOrigin origin = CalibrationOrigin::Name;  // of the kind
   CalibrationSettings settings;                        // read from a file or a tag: near, far, unit
   std::string why;
-  std::string file;                    // the file beside it that this was read from; empty: none
-  std::optional<StereoCamera> camera;  // of disparities; calib.txt
+  std::string file;                                // the file beside it that this was read from; empty: none
+  std::optional<StereoCamera> camera;              // of disparities; calib.txt
+  std::shared_ptr<const KnownKind> own = nullptr;  // `kind`, if the file beside it says how its codes are stored
 };
 
 // Examines `depth_url`, or `url` if that is empty; for addresses of networks and devices nothing is found. Reads only
-// small files: a camera's JSON, Depthkit's, calib.txt.
+// small files: a camera's JSON, Depthkit's, LeRobot's, calib.txt.
 [[nodiscard]] RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url);
 // Reads a JSON text among the container's tags (Record3D).
 [[nodiscard]] RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags);

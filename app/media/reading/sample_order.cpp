@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/sample_parts.h"
@@ -18,7 +19,7 @@ constexpr std::uint32_t kTop = 0xffff;
 std::uint32_t swapped(std::uint32_t code) noexcept {
   return (code >> 8 | code << 8) & kTop;
 }
-std::uint32_t ordered(std::uint32_t code, SampleOrder order) noexcept {
+std::uint32_t ordered(std::uint32_t code, const SampleOrder& order) noexcept {
   if (order == SampleOrder::Low13) return code & 0x1fff;
   if (order == SampleOrder::Upper13) return code >> 3;
   if (order == SampleOrder::RotatedLeft3) return (code >> 3 | code << 13) & kTop;
@@ -29,7 +30,7 @@ bool isGray16(const Frame& frame) noexcept {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-bool isPackedOrder(SampleOrder order) noexcept {
+bool isPackedOrder(const SampleOrder& order) noexcept {
   return order == SampleOrder::RedGreen || order == SampleOrder::GreenRed || order == SampleOrder::GreenBlue ||
          order == SampleOrder::BlueGreen || order == SampleOrder::Below20 || order == SampleOrder::FloatBytes ||
          isTerrain(order);
@@ -39,7 +40,7 @@ std::uint32_t grayAt(const Frame& frame, int c, int r) noexcept {
   return partAt(frame, 0, c, r);
 }
 
-std::uint32_t terrainAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
+std::uint32_t terrainAt(const Frame& frame, int c, int r, const SampleOrder& order) noexcept {
   constexpr double kLowest = -11000, kCodesAMetre = 3.2;
   const std::uint32_t number = partAt(frame, 0, c, r) << 16 | partAt(frame, 1, c, r) << 8 | partAt(frame, 2, c, r);
   if (number == 0) return 0;
@@ -73,7 +74,7 @@ std::uint32_t depthAlongRay(const Frame& frame, int c, int r, std::uint32_t code
   return static_cast<std::uint32_t>(std::lround(code / std::sqrt(1 + x * x + y * y)));
 }
 
-std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noexcept {
+std::uint32_t orderedAt(const Frame& frame, int c, int r, const SampleOrder& order) noexcept {
   if (order == SampleOrder::FloatBytes) return codeOf(floatAt(frame, c, r));
   if (order == SampleOrder::HalfFloat) return codeOf(halfOf(grayAt(frame, c, r)));
   // 600 of 640 x 480 pixels; 60 x 45 degrees.
@@ -86,6 +87,42 @@ std::uint32_t orderedAt(const Frame& frame, int c, int r, SampleOrder order) noe
   if (order == SampleOrder::BlueGreen) return partAt(frame, 2, c, r) << 8 | green;
   if (order == SampleOrder::GreenBlue) return green << 8 | partAt(frame, 2, c, r);
   return order == SampleOrder::RedGreen ? red << 8 | green : green << 8 | red;
+}
+
+// Gray, or the luma of a film.
+bool hasSteps(const Frame& frame) noexcept {
+  return frame.model != ColorModel::Rgb && frame.components[0].bits == EvenSteps::kBits;
+}
+
+// The code of 16 bits for each of 12.
+std::vector<std::uint16_t> codesOf(const EvenSteps& steps) {
+  constexpr int kCodes = 1 << EvenSteps::kBits;
+  const double near = static_cast<double>(steps.nearest_mm), far = static_cast<double>(steps.farthest_mm);
+  const double shift = static_cast<double>(steps.shift_mm);
+  std::vector<std::uint16_t> codes(kCodes);
+  for (int code = 1; code < kCodes; ++code) {
+    const double share = static_cast<double>(code) / (kCodes - 1);
+    const double mm = steps.logarithmic ? (near + shift) * std::pow((far + shift) / (near + shift), share) - shift
+                                        : near + share * (far - near);
+    codes[static_cast<std::size_t>(code)] =
+        static_cast<std::uint16_t>(std::clamp(std::round(mm / steps.unitMm()), 1.0, double{kTop}));
+  }
+  return codes;
+}
+
+// The samples of `depth` as gray of 16 bits: code(c, r).
+template <class Code>
+Frame recoded(const Frame& depth, Code&& code) {
+  auto samples = std::make_shared<std::vector<std::uint16_t>>();
+  samples->reserve(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
+  for (int r = 0; r < depth.height; ++r) {
+    for (int c = 0; c < depth.width; ++c) samples->push_back(static_cast<std::uint16_t>(code(c, r)));
+  }
+  Frame frame = grayFrame(std::move(samples), depth.width, depth.height);
+  frame.pts = depth.pts;
+  frame.duration = depth.duration;
+  frame.sample_aspect = depth.sample_aspect;
+  return frame;
 }
 
 }  // namespace
@@ -148,29 +185,24 @@ SampleOrder orderOf(const KnownKind& kind, const Frame& stored) {
   return raw && CodeCount(stored).share(kRawHole + 1, kTop) == 0 ? SampleOrder::AsStored : kind.order;
 }
 
-Result<Frame> inOrder(const Frame& depth, SampleOrder order) {
+Result<Frame> inOrder(const Frame& depth, const SampleOrder& order) {
   if (order == SampleOrder::EqualColors && depth.model == ColorModel::Rgb) {
     Frame gray = depth;
     gray.model = ColorModel::Gray;
     gray.alpha.reset();
     return gray;
   }
-  bool stored_so = isPackedOrder(order) ? isPackable(depth) : isGray16(depth);
+  bool stored_so = isPackedOrder(order)          ? isPackable(depth)
+                   : order == SampleOrder::Steps ? hasSteps(depth)
+                                                 : isGray16(depth);
   if (order == SampleOrder::FloatBytes) stored_so = stored_so && depth.alpha.has_value();
   if (order == SampleOrder::AsStored || !stored_so) return depth;
   try {
-    auto samples = std::make_shared<std::vector<std::uint16_t>>();
-    samples->reserve(static_cast<std::size_t>(depth.width) * static_cast<std::size_t>(depth.height));
-    for (int r = 0; r < depth.height; ++r) {
-      for (int c = 0; c < depth.width; ++c) {
-        samples->push_back(static_cast<std::uint16_t>(orderedAt(depth, c, r, order)));
-      }
+    if (order == SampleOrder::Steps) {
+      const std::vector<std::uint16_t> codes = codesOf(order.steps());
+      return recoded(depth, [&](int c, int r) { return codes[grayAt(depth, c, r) % codes.size()]; });
     }
-    Frame frame = grayFrame(std::move(samples), depth.width, depth.height);
-    frame.pts = depth.pts;
-    frame.duration = depth.duration;
-    frame.sample_aspect = depth.sample_aspect;
-    return frame;
+    return recoded(depth, [&](int c, int r) { return orderedAt(depth, c, r, order); });
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::Exhausted, "out of memory for a picture");
   }

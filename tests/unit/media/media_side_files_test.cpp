@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies beside a recording and gives its distances: Middlebury's calib.txt and Depthkit's files, written by hand.
+// What lies beside a recording and gives its distances: Middlebury's calib.txt, Depthkit's files and
+// LeRobot's info.json, written by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -210,6 +211,78 @@ TEST_F(DepthkitFile, OtherTextsTellNothing) {
     EXPECT_THAT(test::openFilm({.url = folder_ / "clip.mkv"}).info.reading.why, Not(Contains(HasSubstr("clip.txt"))))
         << text;
   }
+}
+
+// LeRobot: 12 bits, code 4095 (f(z) - f(min)) / (f(max) - f(min)), f(z) = log(z + shift) or z; 0 for a hole.
+struct Quantised {
+  const char *pix_fmt, *info;
+  double min_mm, max_mm, shift_mm;
+  bool logarithmic;
+};
+
+class LeRobotFile : public testing::Test {
+ protected:
+  static double onScale(const Quantised& q, double mm) { return q.logarithmic ? std::log(mm + q.shift_mm) : mm; }
+  [[nodiscard]] std::string makeFilm(const Quantised& q, const std::string& camera) const {
+    const std::string folder = folder_ / ("set/videos/" + camera + "/chunk-000");
+    std::filesystem::create_directories(folder);
+    ClipTrack film{.codec = "libx265", .pix_fmt = q.pix_fmt, .width = kSceneCols, .height = kSceneRows, .frames = 2};
+    film.options = {{"x265-params", "lossless=1:log-level=none"}};
+    film.sample = [q](int k, int c, int r, int) {
+      const double mm = distanceMm(c, r), low = onScale(q, q.min_mm);
+      if (k > 0) return 2048u;
+      if (mm == 0) return 0u;
+      return static_cast<std::uint32_t>(std::lround(4095 * (onScale(q, mm) - low) / (onScale(q, q.max_mm) - low)));
+    };
+    test::makeClip(folder + "/file-000.mp4", {film});
+    std::filesystem::create_directories(folder_ / "set/meta");
+    write(folder_ / "set/meta/info.json",
+          R"({"codebase_version": "v3.0", "features": {"observation.images.top": {"info": {"is_depth_map": false}}, )"
+          R"("observation.images.top_depth": {"dtype": "video", "info": )" +
+              std::string(q.info) + "}}}");
+    return folder + "/file-000.mp4";
+  }
+  test::TemporaryFolder folder_;
+};
+
+constexpr Quantised kUsual{"gray12le", R"({"is_depth_map": true})", 10, 10000, 3500, true};
+
+TEST_F(LeRobotFile, SaysHowTheDepthFilmsAreQuantised) {
+  const Quantised all[] = {
+      kUsual,
+      {"yuv420p12le",
+       R"({"video.is_depth_map": true, "video.depth_min": 0.05, "video.depth_max": 5.0, "video.shift": 0.0})", 50, 5000,
+       0, true},
+      {"gray12le", R"({"is_depth_map": true, "video.depth_min": 0, "video.depth_max": 20, "video.use_log": false})", 0,
+       20000, 3500, false}};
+  for (const Quantised& q : all) {
+    const test::OpenedFilm film = test::openFilm({.url = makeFilm(q, "observation.images.top_depth")});
+    ASSERT_TRUE(film.info.has_depth) << q.info;
+    EXPECT_EQ(film.info.packing, Packing::DepthAlone) << q.info;
+    for (int c = 20; c < kSceneCols; c += 7) {
+      EXPECT_NEAR(film.distanceAt(c, 60), distanceMm(c, 60), 0.002 * distanceMm(c, 60) + q.max_mm / 4095) << c;
+    }
+    EXPECT_TRUE(std::isnan(film.heightAt(5, 60))) << q.info;
+    EXPECT_THAT(film.info.reading.why, Contains(HasSubstr("meta/info.json"))) << q.info;
+    EXPECT_THAT(film.info.reading.doubts, testing::IsEmpty()) << q.info;
+  }
+}
+
+TEST_F(LeRobotFile, BelongsToItsOwnCamerasAloneAndMustMakeSense) {
+  EXPECT_THAT(test::openFilm({.url = makeFilm(kUsual, "observation.images.top")}).info.reading.why,
+              Not(Contains(HasSubstr("info.json"))));
+  for (const char* info :
+       {R"({"is_depth_map": true, "video.depth_max": 0})", R"({"is_depth_map": true, "video.shift": -1})",
+        R"({"is_depth_map": true, "video.depth_max": 1e300})", R"({"is_depth_map": 1})", "3", "[]"}) {
+    Quantised odd = kUsual;
+    odd.info = info;
+    EXPECT_THAT(test::openFilm({.url = makeFilm(odd, "observation.images.top_depth")}).info.reading.why,
+                Not(Contains(HasSubstr("info.json"))))
+        << info;
+  }
+  // By the kind's name, wherever the film lies.
+  const test::OpenedFilm named = test::openFilm({.url = makeFilm(kUsual, "elsewhere"), .as = findKind("lerobot")});
+  EXPECT_NEAR(named.distanceAt(80, 54), distanceMm(80, 54), 4);
 }
 
 }  // namespace

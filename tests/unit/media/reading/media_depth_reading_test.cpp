@@ -206,7 +206,8 @@ TEST(DepthReading, WhoHasSaidWhatACodeIsGoesFirst) {
 // What a camera shows next may be nearer than its first picture.
 TEST(DepthReading, NearAndFarOfACameraAreNotReadOffItsFirstPicture) {
   const Frame mm = picture(0, [](double z) { return z; });
-  DepthClues clues{.tags = {{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}}};
+  DepthClues clues;
+  clues.tags = {{"DEPTH_UNIT", "1"}, {"DEPTH_INVALID", "0"}};
   const auto nearOf = [&] { return readMeaning(clues, kindOf(clues, mm), mm).value().calibration.calibration.near_mm; };
   EXPECT_NEAR(nearOf(), 0.9 * 1100, 15);
   clues.live = true;

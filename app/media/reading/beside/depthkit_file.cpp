@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the numbers by their names, so that JSON, the same text inside of a Unity asset, and an asset's own lines are
 // read alike; where several cameras are listed, the first one's.
-#include "app/media/reading/depthkit_file.h"
+#include "app/media/reading/beside/depthkit_file.h"
 
 #include <cctype>
 #include <cmath>
