@@ -53,7 +53,8 @@ struct PlayerConfig {
   std::optional<double> volume_percent;
   bool stays = false;                    // without a film, waits for the next one until asked to quit
   std::optional<BrowserConfig> browser;  // without a film, shows the films of these folders
-  std::string resume_path;  // file in which positions in films are kept; empty: every film begins at its beginning
+  bool faults_in_list = false;  // the list of films shows why no film can be played, in place of the end of the run
+  std::string resume_path;      // file in which positions in films are kept; empty: every film begins at its beginning
   std::optional<Duration> duration;  // of the run, in machine time
   bool own_threads = true;           // false: reader and ticks run inside `step`, for simulated time
 };
@@ -84,7 +85,7 @@ class Player {
 
   // Plays until the end, a stop or a failure. `stop` may be set by a signal handler. Call once. Fails if the display is
   // lost, and with the first film that could not be played; the films after it are played all the same. With a list of
-  // films to return to, or a player that stays, no film counts.
+  // films to return to, or a player that stays, no film counts. See also `faults_in_list`.
   [[nodiscard]] Outcome<void> run(const std::atomic<bool>& stop);
   // Carries out a viewer's command; within `run`, on its thread. A command that the present state does not allow
   // changes nothing.

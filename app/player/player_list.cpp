@@ -82,6 +82,7 @@ void Player::endFilm(MonotonicTime now) {
 void Player::followFault(MonotonicTime now) {
   if (state_ != PlayerState::Fault || display_failed_) return;
   const auto other = programme_.afterFault();
+  if (!other && config_.faults_in_list) browsed_ = true;
   const bool counts = endsWithFilms();
   const bool first = counts && !missed_;
   if (first) missed_ = failure_;

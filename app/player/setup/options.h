@@ -30,6 +30,7 @@ struct PlayOptions {
   std::string keys_path;  // empty: the usual keys
   bool resume = false;
   std::vector<std::string> films;  // folders for the list of films
+  bool from_desktop = false;       // nobody reads the terminal
   bool osd = false;                // show it also off screen
   bool print_keys = false, print_states = false;
   bool verbose = false;      // print a developer's lines and figures

@@ -21,7 +21,8 @@ Outcome<void> loadPlayFiles(PlayOptions& options) {
   if (const std::string state = Resume::defaultPath(); !state.empty()) {
     options.player.volume_path = (std::filesystem::path(state).parent_path() / "volume.json").string();
   }
-  if (!options.resume && !options.player.browser) return {};
+  const bool was_chosen = options.player.browser && !options.player.faults_in_list;  // from the list of films
+  if (!options.resume && !was_chosen) return {};
   const std::string path = Resume::defaultPath();
   if (path.empty()) {
     if (!options.resume) return {};

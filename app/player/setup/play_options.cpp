@@ -279,6 +279,11 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
           "those on USB sticks, and those seen lately; remembers where each is left [the folder Videos]")
       ->type_name("FOLDER")
       ->allow_extra_args(false);
+  command
+      .add_flag("--from-desktop", play.from_desktop,
+                "For a desktop's menu, whose terminal nobody sees: a window that can play no film says why in the list "
+                "of films")
+      ->configurable(false);
   addFileOptions(command, play);
   answerOptionsOfOthers(command);
   command.footer(kPlayFooter + KeyTable::usual().help() + kExitCodes);

@@ -107,7 +107,9 @@ std::string desktopLanguage() {
 void settleBrowser(PlayOptions& play) {
   const bool no_film = play.player.source.url.empty();
   const bool seen = play.display.plain("window") || play.display.word == "kms";
-  if (no_film ? !seen && play.films.empty() : !play.player.stays || play.films.empty()) return;
+  play.player.faults_in_list = play.from_desktop && seen && !no_film;
+  const bool programs_choose = play.player.stays && !play.films.empty();
+  if (!(no_film ? seen || !play.films.empty() : programs_choose || play.player.faults_in_list)) return;
   if (play.films.empty()) play.films.push_back(usualFilms());
   play.player.browser = BrowserConfig{.folders = play.films, .takes_drops = play.display.plain("window")};
   // A window has one size for the list and all films.
