@@ -150,8 +150,7 @@ struct SignPair {
   char sign;
   std::uint16_t code;
 };
-// The keys of the USA that have these signs. For $ % ^ & ( ), which have digits there, the position counts: in France
-// they are where those digits are.
+// The keys of the USA that have these signs.
 constexpr SignPair kSigns[] = {
     {'#', KEY_NUMERIC_POUND},
     {'?', KEY_QUESTION},
@@ -161,6 +160,12 @@ constexpr SignPair kSigns[] = {
     {'*', KEY_KPASTERISK},
     {'!', KEY_1 | kWithShift},
     {'@', KEY_2 | kWithShift},
+    {'$', KEY_4 | kWithShift},
+    {'%', KEY_5 | kWithShift},
+    {'^', KEY_6 | kWithShift},
+    {'&', KEY_7 | kWithShift},
+    {'(', KEY_9 | kWithShift},
+    {')', KEY_0 | kWithShift},
     {'-', KEY_MINUS},
     {'_', KEY_MINUS | kWithShift},
     {'=', KEY_EQUAL},
@@ -182,11 +187,22 @@ constexpr SignPair kSigns[] = {
 };
 
 // What Shift makes of these in the USA: the table is asked where SDL tells no text, as with Ctrl, or over SDL 3.
-constexpr std::pair<char, char> kShifted[] = {{'3', '#'}, {'/', '?'}, {',', '<'}, {'.', '>'}};
+constexpr std::pair<char, char> kShifted[] = {{'1', '!'}, {'2', '@'}, {'3', '#'}, {'4', '$'}, {'5', '%'}, {'6', '^'},
+                                              {'7', '&'}, {'8', '*'}, {'/', '?'}, {',', '<'}, {'.', '>'}};
+
+// The first code point of UTF-8.
+int firstOf(std::string_view text) noexcept {
+  const auto at = [text](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0; };
+  const auto next = [at](std::size_t i) { return at(i) & 0x3f; };
+  if (at(0) < 0x80) return at(0);
+  if (at(0) < 0xe0) return (at(0) & 0x1f) << 6 | next(1);
+  if (at(0) < 0xf0) return (at(0) & 0x0f) << 12 | next(1) << 6 | next(2);
+  return (at(0) & 0x07) << 18 | next(1) << 12 | next(2) << 6 | next(3);
+}
 
 int signOf(const SDL_Keysym& key, std::string_view typed) noexcept {
-  if (typed.size() == 1) return typed.front();
-  if (!typed.empty() || (key.mod & KMOD_SHIFT) == 0) return key.sym;
+  if (!typed.empty()) return firstOf(typed);
+  if ((key.mod & KMOD_SHIFT) == 0) return key.sym;
   const auto* const found = std::ranges::find(kShifted, key.sym, &std::pair<char, char>::first);
   return found == std::end(kShifted) ? key.sym : found->second;
 }
@@ -198,6 +214,18 @@ std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
   return std::nullopt;
 }
 
+// A letter or sign that no key of the USA has. Scripts without Latin letters are typed on the keys of the USA.
+bool isOtherLatin(int sign) noexcept {
+  constexpr int kLatin = 0xa0, kIpa = 0x250, kPunctuation = 0x2000, kCjk = 0x2e80;
+  return (sign >= kLatin && sign < kIpa) || (sign >= kPunctuation && sign < kCjk);
+}
+
+// Where a keyboard has letters and signs. One without a sign there only adds an accent to the next letter.
+bool isForSigns(SDL_Scancode scancode) noexcept {
+  return scancode == SDL_SCANCODE_NONUSBACKSLASH || (scancode >= SDL_SCANCODE_A && scancode <= SDL_SCANCODE_0) ||
+         (scancode >= SDL_SCANCODE_MINUS && scancode <= SDL_SCANCODE_SLASH);
+}
+
 // SDL's scancodes of the letters are in the order of the alphabet, and so are its symbols.
 SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
   const bool letter = key.sym >= SDLK_a && key.sym <= SDLK_z;
@@ -207,8 +235,11 @@ SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
 }  // namespace
 
 std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key, std::string_view typed) noexcept {
-  const bool on_keypad = (key.sym & SDLK_SCANCODE_MASK) != 0;
-  const int sign = on_keypad ? 0 : signOf(key, typed);
+  const bool has_no_sign = (key.sym & SDLK_SCANCODE_MASK) != 0;  // or is on the keypad
+  const int sign = has_no_sign && !isForSigns(key.scancode) ? 0 : signOf(key, typed);
+  const bool untold =
+      typed.empty() && (key.mod & KMOD_RALT) != 0 && isForSigns(key.scancode);  // what AltGr makes of it
+  if (untold || isOtherLatin(sign) || (has_no_sign && sign == key.sym)) return KEY_UNKNOWN;
   for (const SignPair& pair : kSigns) {
     if (pair.sign == sign) return pair.code;
   }

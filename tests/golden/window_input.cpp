@@ -30,6 +30,12 @@ TEST(WindowKeys, WithoutATextShiftMakesWhatItMakesInTheUsa) {
   slash.mod = KMOD_LSHIFT;
   EXPECT_EQ(linuxKey(slash, ""), KEY_QUESTION);
   EXPECT_EQ(linuxKey(slash, "_"), KEY_MINUS | kWithShift) << "as in Germany";
+  SDL_Keysym seven{};
+  seven.scancode = SDL_SCANCODE_7;
+  seven.sym = SDLK_7;
+  seven.mod = KMOD_LSHIFT;
+  EXPECT_EQ(linuxKey(seven, ""), KEY_7 | kWithShift) << "&";
+  EXPECT_EQ(linuxKey(seven, "7"), KEY_NUMERIC_7) << "as in France";
 }
 
 TEST_F(WindowDisplay, KeysArriveWithTheCodesOfLinux) {
@@ -95,7 +101,13 @@ TEST_F(WindowDisplay, SignsAreThoseThatTheLayoutMakes) {
               {"de", nullptr, "KP_Divide", kNone, KEY_KPSLASH},
               {"de", nullptr, "z", kNone, KEY_Z},
               {"fr", "Shift_L", "ampersand", KEY_LEFTSHIFT, KEY_NUMERIC_1},
-              {"fr", nullptr, "ampersand", kNone, KEY_1},
+              {"de", nullptr, "ssharp", kNone, KEY_UNKNOWN},
+              {"de", nullptr, "udiaeresis", kNone, KEY_UNKNOWN},
+              {"de", "Control_L", "odiaeresis", KEY_LEFTCTRL, KEY_UNKNOWN},
+              {"de", nullptr, "dead_acute", kNone, KEY_UNKNOWN},
+              {"de", "ISO_Level3_Shift", "e", KEY_RIGHTALT, KEY_UNKNOWN},  // the euro's sign
+              {"us", "Shift_L", "7", KEY_LEFTSHIFT, KEY_7 | kWithShift},
+              {"fr", nullptr, "ampersand", kNone, KEY_7 | kWithShift},
               {"fr", nullptr, "a", kNone, KEY_A},
               {"ru", nullptr, "Cyrillic_ef", kNone, KEY_A}};
   screen_->focus(window_);

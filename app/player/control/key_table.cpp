@@ -170,8 +170,9 @@ const KeyTable::Binding* KeyTable::row(std::size_t table, std::uint16_t code) co
 
 const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) const noexcept {
   const std::uint16_t alone = withoutShiftAndCtrl(code);
-  const auto without_shift = static_cast<std::uint16_t>(code & ~kWithShift);  // Ctrl and + is Ctrl, Shift and =
-  for (const std::uint16_t known : {code, without_shift, alone, twinOf(alone)}) {
+  const auto without_shift = static_cast<std::uint16_t>(code & ~kWithShift);          // Ctrl and + is Ctrl, Shift and =
+  const bool is_sign = (code & kWithShift) != 0 && alone >= KEY_1 && alone <= KEY_8;  // "&" is not a remote control's 7
+  for (const std::uint16_t known : {code, without_shift, alone, is_sign ? alone : twinOf(alone)}) {
     for (const std::size_t table : {static_cast<std::size_t>(state), kAlways}) {
       if (const Binding* binding = row(table, known)) return binding->press || binding->hold ? binding : nullptr;
     }

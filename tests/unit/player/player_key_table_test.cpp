@@ -302,6 +302,8 @@ TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithShift)), "seek +1");
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithCtrl)), "seek +5");
   EXPECT_FALSE(pressed(*table, State::Playing, KEY_Q | kWithCtrl)) << "it is told to mean nothing";
+  EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_7)), "seek 70%");
+  EXPECT_FALSE(pressed(*table, State::Playing, KEY_7 | kWithShift)) << "another sign in most layouts";
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_Q)), "quit");
 }
 
