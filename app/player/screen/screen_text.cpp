@@ -47,6 +47,11 @@ std::string hapticWords(const ScreenFacts& facts) {
   return "touch: " + (words.empty() ? "no device" : words);
 }
 
+// Of a film that is being opened nothing is known.
+std::string statusOf(const ScreenFacts& facts) {
+  return facts.state == PlayerState::Opening ? "" : stereoWords(facts) + "   " + hapticWords(facts);
+}
+
 std::string buttonWord(PlayerVerb verb, const ScreenFacts& facts) {
   switch (verb) {
     case PlayerVerb::PlayPause:
@@ -133,10 +138,8 @@ bool ScreenText::showsBar(const ScreenFacts& facts, MonotonicTime now) const noe
 }
 
 ScreenBar ScreenText::bar(const ScreenFacts& facts, MonotonicTime now) const {
-  ScreenBar bar{.title = facts.title,
-                .times = timesOf(facts),
-                .status = stereoWords(facts) + "   " + hapticWords(facts),
-                .has_length = facts.duration_s > 0};
+  ScreenBar bar{
+      .title = facts.title, .times = timesOf(facts), .status = statusOf(facts), .has_length = facts.duration_s > 0};
   for (const PlayerVerb verb : facts.buttons) bar.buttons.push_back({verb, buttonWord(verb, facts)});
   if (now < pointed_until_) bar.pointed_button = pointed_button_;
   if (!bar.has_length) return bar;

@@ -43,6 +43,12 @@ TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
   EXPECT_NEAR(bar->position, 83.9 / 3725, 1e-3);
 }
 
+TEST(ScreenText, DoesNotSpeakOfTheDepthOfAFilmThatIsBeingOpened) {
+  ScreenText text;
+  text.wake(kStart);
+  EXPECT_EQ(at(text, {.title = "film.mkv", .state = PlayerState::Opening}).bar->status, "");
+}
+
 TEST(ScreenText, TellsBothFingers) {
   ScreenText text;
   text.wake(kStart);
