@@ -2,6 +2,7 @@
 // Text over the picture: its position for each eye and in depth, and that it is legible ink.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,22 @@ TEST(AssText, ArabicIsJoined) {
   int apart_width = 0;
   for (const TextPicture& picture : apart) apart_width = std::max(apart_width, picture.x + picture.width - apart[0].x);
   EXPECT_LT(joined[0].width, apart_width);
+}
+
+TEST(AssText, SaysOnceThatNoFontHasALetter) {
+  auto text = AssText::create();
+  if (!text) GTEST_SKIP() << "no font here";
+  text->begin("[Script Info]\nPlayResX: 640\nPlayResY: 360\n");
+  std::vector<TextPicture> pictures;
+  testing::internal::CaptureStderr();
+  for (const char* const words : {"A\xe2\x81\xa0", "\xf4\x8f\xbf\xb4", "\xf4\x8f\xbf\xb5"}) {  // a joiner; no letters
+    text->removeLines();
+    text->add(std::string("0,0,Default,,0,0,0,,") + words, Duration(0), std::chrono::seconds(1));
+    text->draw({.width = 640, .height = 360}, Duration(0), pictures, true);
+  }
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(said.find("render: no font here has the letter U+10FFF4;"), said.find("render:")) << said;
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
 }
 
 TEST(AssText, SaysWhetherItHasChanged) {

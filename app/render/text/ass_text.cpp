@@ -5,8 +5,11 @@
 #include <ass/ass.h>
 
 #include <algorithm>
+#include <cstdarg>
 #include <optional>
 #include <utility>
+
+#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -82,6 +85,18 @@ void blend(const ASS_Image& image, TextPicture& picture) noexcept {
   }
 }
 
+// Called for every message of libass, which says only in words that no font has a letter. `told` is a bool.
+void hearLibass(int, const char* format, va_list arguments, void* told) {
+  constexpr unsigned kFirstMark = 0x2000, kLastMark = 0x206f;  // spaces, joiners and the like: nothing is seen of them
+  if (std::string_view(format).find("any fallback with glyph") == std::string_view::npos) return;
+  const unsigned letter = va_arg(arguments, unsigned);
+  if ((letter >= kFirstMark && letter <= kLastMark) || std::exchange(*static_cast<bool*>(told), true)) return;
+  log(LogLevel::Warning, "render",
+      "no font here has the letter U+%04X; boxes are shown for such letters; install a font that has them (Debian: "
+      "fonts-noto-core; Chinese, Japanese, Korean: fonts-noto-cjk)",
+      letter);
+}
+
 // Without any font libass draws nothing.
 bool drawsLetters(AssText& text) {
   text.begin("[Script Info]\nPlayResX: 64\nPlayResY: 64\n");
@@ -94,6 +109,7 @@ bool drawsLetters(AssText& text) {
 }  // namespace
 
 struct AssText::Parts {
+  bool told = false;  // that a letter is in no font
   std::unique_ptr<ASS_Library, FreeLibrary> library;
   std::unique_ptr<ASS_Renderer, FreeRenderer> renderer;
   std::unique_ptr<ASS_Track, FreeTrack> track;
@@ -109,7 +125,7 @@ Result<AssText> AssText::create() {
   auto parts = std::make_unique<Parts>();
   parts->library.reset(ass_library_init());
   if (!parts->library) return fail(ErrorCode::Exhausted, "out of memory for text");
-  ass_set_message_cb(parts->library.get(), [](int, const char*, va_list, void*) {}, nullptr);
+  ass_set_message_cb(parts->library.get(), hearLibass, &parts->told);
   parts->renderer.reset(ass_renderer_init(parts->library.get()));
   if (!parts->renderer) return fail(ErrorCode::Exhausted, "out of memory for text");
   ass_set_fonts(parts->renderer.get(), nullptr, "sans-serif", ASS_FONTPROVIDER_AUTODETECT, nullptr, 1);
