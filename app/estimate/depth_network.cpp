@@ -16,6 +16,9 @@ namespace {
 
 constexpr Error kNotDepth{ErrorCode::Unsupported, 0, "the network must give depth in one channel"};
 
+constexpr Error kOneSize{ErrorCode::InvalidArgument, 0,
+                         "the network takes pictures of another size, and no other; leave --depth-size out"};
+
 constexpr const char* kTooLarge = "is larger than an ONNX model can be";
 
 // protobuf allows no larger message.
@@ -91,10 +94,11 @@ Outcome<std::unique_ptr<DepthNetwork>> DepthNetwork::open(const std::string& pat
   if (!bytes) return failOn(path, bytes.error());
   const auto own = onnxInputOf(*bytes);
   if (!own) return failOn(path, own.error());
+  const cv::Size size = inputSize(*own, input, cols, rows);
+  if (input && size != cv::Size(input->first, input->second)) return failOn(path, kOneSize);
   auto engine = openNetwork(path, *bytes);
   if (!engine) return std::unexpected(engine.error());
-  return std::unique_ptr<DepthNetwork>(
-      new DepthNetwork(std::make_unique<Impl>(Impl{path, std::move(*engine), inputSize(*own, input, cols, rows)})));
+  return std::unique_ptr<DepthNetwork>(new DepthNetwork(std::make_unique<Impl>(Impl{path, std::move(*engine), size})));
 }
 
 Outcome<void> DepthNetwork::give(RawPicture picture) {

@@ -19,8 +19,8 @@ class DepthNetwork final : public DepthEstimator {
  public:
   static constexpr int kLongSide = 518, kPatch = 14;  // of Depth Anything
 
-  // Opens the network for pictures of cols x rows. `input`: the size to give it, if it takes any. Failures name the
-  // file and quote OpenCV's message.
+  // Opens the network for pictures of cols x rows. `input`: the size to give it; InvalidArgument if it takes another
+  // alone. Failures name the file and quote OpenCV's message.
   [[nodiscard]] static Outcome<std::unique_ptr<DepthNetwork>> open(const std::string& path, int cols, int rows,
                                                                    std::optional<std::pair<int, int>> input);
   ~DepthNetwork() override;

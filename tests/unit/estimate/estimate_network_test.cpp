@@ -140,6 +140,17 @@ TEST_F(Network, AnswersInThePicturesShape) {
   EXPECT_EQ(wished.rows, 159) << "154 rows of the network, 280 columns in the picture's shape";
 }
 
+TEST_F(Network, RefusesASizeThatANetworkOfAnotherDoesNotTake) {
+  const auto failure = [&](std::pair<int, int> wished, const std::vector<int>& input) {
+    const auto opened = DepthNetwork::open(written(network(input, {1, 1, 1})), 128, 64, wished);
+    return opened ? "none" : std::string(opened.error().error.message);
+  };
+  EXPECT_THAT(failure({280, 154}, {1, 3, 32, 64}), HasSubstr("leave --depth-size out"));
+  EXPECT_THAT(failure({280, 32}, {1, 3, 0, 64}), HasSubstr("leave --depth-size out")) << "its columns are given";
+  EXPECT_EQ(failure({64, 154}, {1, 3, 0, 64}), "none");
+  EXPECT_EQ(failure({64, 32}, {1, 3, 32, 64}), "none");
+}
+
 TEST_F(Network, RefusesInOneLine) {
   const auto failure = [&](const std::string& model) {
     const auto network = DepthNetwork::open(written(model), 64, 32, std::nullopt);
