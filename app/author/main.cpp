@@ -17,6 +17,7 @@
 #include "app/cli/progress_line.h"
 #include "app/cli/read_files.h"
 #include "app/media/film_folder.h"
+#include "app/media/playlist.h"
 #include "drivers/registry.h"
 #include "hal/media/video_decoder.h"
 #include "platform/clock.h"
@@ -240,6 +241,7 @@ int run(Arguments& a) {
   if (a.scene.empty() && a.source.url.empty()) {
     return tell({"--color", {ErrorCode::InvalidArgument, 0, "missing; give the film's colour, or use --scene sample"}});
   }
+  for (std::string* const source : {&a.source.url, &a.source.depth_url}) *source = sourceNamed(*source);
   if (auto chosen = chooseDepth(a); !chosen) return tell(chosen.error());
   if (auto chosen = choosePaintings(a); !chosen) return tell(chosen.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;

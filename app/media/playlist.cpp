@@ -127,7 +127,8 @@ std::string pathOfFileUrl(std::string_view url) {
 }
 
 std::string sourceNamed(const std::string& words) {
-  return words.starts_with("file:///") ? pathOfFileUrl(words) : words;
+  if (words.starts_with("file:///")) return pathOfFileUrl(words);
+  return words.starts_with("file:") && !words.starts_with("file://") ? words.substr(5) : words;
 }
 
 bool mayBePlaylist(std::string_view url) {

@@ -23,8 +23,8 @@ struct PlaylistEntry {
 [[nodiscard]] std::string_view withoutQuery(std::string_view url);
 // The path of "file:PATH" and "file://HOST/PATH", with %20 and the like decoded.
 [[nodiscard]] std::string pathOfFileUrl(std::string_view url);
-// A source as someone names it: the path if it is an address "file:///..", as some desktops and programs write; else
-// unchanged.
+// A source as someone names it: the path if it is an address "file:///.." or "file:..", as some desktops and programs
+// write; else unchanged.
 [[nodiscard]] std::string sourceNamed(const std::string& words);
 // Whether the name of this source could be a playlist's: only then is its text read.
 [[nodiscard]] bool mayBePlaylist(std::string_view url);

@@ -163,6 +163,16 @@ TEST_F(AuthorKeeps, KeepsEverythingInMatroska) {
   EXPECT_THAT(say("ffprobe -v error -show_entries format_tags=title -of default=nk=1:nw=1 " + out), "A walk\n");
 }
 
+TEST_F(AuthorKeeps, AFilmThatIsNamedByItsAddress) {
+  ASSERT_EQ(std::system(inFolder("cp @/film.mkv '@/two words.mkv'").c_str()), 0);
+  for (const char* address : {"file://@/two%20words.mkv", "file:@/film.mkv"}) {
+    const std::string said = author("--force -o @/out.mkv", address);
+    EXPECT_THAT(said, HasSubstr("kept: sound aac eng")) << address;
+    EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), ElementsAreArray(tracksOf(film_, "a"))) << address;
+    EXPECT_THAT(chaptersOf(folder_ / "out.mkv"), SizeIs(3)) << address;
+  }
+}
+
 TEST_F(AuthorKeeps, TextBecomesTheTextOfMp4) {
   const std::string said = author("-o @/out.mp4");
   EXPECT_THAT(said, HasSubstr("subtitles subrip eng as mov_text"));

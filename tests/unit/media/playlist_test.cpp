@@ -77,6 +77,14 @@ TEST(Playlist, OneInAFileOpensFilesButNoTricks) {
   }
 }
 
+TEST(Playlist, APersonMayNameAFileByItsAddress) {
+  EXPECT_EQ(sourceNamed("file:///films/two%20words.mkv"), "/films/two words.mkv");
+  EXPECT_EQ(sourceNamed("file:films/100%.mkv"), "films/100%.mkv");
+  for (const char* words : {"films/a.mkv", "file", "v4l2:/dev/video0", "http://host/file:a"}) {
+    EXPECT_EQ(sourceNamed(words), words);
+  }
+}
+
 // "Alien" could be a protocol.
 TEST(Playlist, AFileBesideItMayHaveAColonInItsName) {
   const test::TemporaryFolder folder;
