@@ -133,8 +133,8 @@ Outcome<void> Packager::write(const FramePair& pair) {
   if (auto made = toColor420(color, packed); !made) return failOn("colour", made.error());
   if (auto written = writer_->writeColor(packed, color.pts, key); !written)
     return failOn(output_.path, written.error());
-  if (!depth_is_new) return {};
   if (auto written = writeMaterial(pair, packed, key, begins_shot); !written) return written;
+  if (!depth_is_new) return {};
 
   last_depth_ = pair.depth.pts;
   const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);

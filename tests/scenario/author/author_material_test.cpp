@@ -276,6 +276,20 @@ TEST_F(PaintedFilm, APaintingMayBeginWithinAShot) {
   EXPECT_NEAR(at(film, kCut, centreX(kCut), centreY(kCut)).stiffness, 128.0 / 255, 0.01);
 }
 
+TEST_F(PaintedFilm, APaintingMayBeginWhileADepthPictureIsHeld) {
+  constexpr int kFrom = 11;
+  ClipTrack depth{.pix_fmt = "gray", .width = kWide, .height = kHigh, .fps_num = 15, .frames = kLong / 2};
+  depth.sample = [](int, int c, int, int) { return c < kWide / 2 ? 60U : 130U; };
+  makeClip(folder_ / "depth.mkv", {depth});
+  ClipTrack all{.codec = "png", .pix_fmt = "gray", .width = kWide, .height = kHigh, .frames = 1};
+  all.sample = [](int, int, int, int) { return 255U; };
+  makeClip(folder_ / "all.png", {all});
+  static_cast<void>(author({{"all.png", kFrom / 30.0}}, {}));
+  const test::ReadFilm film = readFilm(folder_ / "film.mkv");
+  EXPECT_NEAR(at(film, kFrom - 1, 80, 60).stiffness, 128.0 / 255, 0.01);
+  EXPECT_NEAR(at(film, kFrom, 80, 60).stiffness, 1, 0.01);
+}
+
 TEST_F(PaintedFilm, AFilmThatIsMadeAgainKeepsItsTrack) {
   static_cast<void>(author("map.png", {}));
   SourceOptions source;
