@@ -10,6 +10,7 @@
 
 #include "app/author/package/film_kind.h"
 #include "app/scene/display_volume.h"
+#include "platform/atomic_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/print.h"
 #include "platform/text/plain_text.h"
@@ -109,12 +110,16 @@ bool ownSegmentsAlone(const std::string& folder) {
   return isFolder(folder) && std::ranges::all_of(entriesOf(folder), own);
 }
 
+// Creates nothing that stays: a place that cannot be written to is told before the work.
 Result<void> checkPlace(const std::string& path, bool force) {
   const auto status = statusOf(path);
   if (!status && status.error().code != ErrorCode::NotFound) return std::unexpected(status.error());
-  if (!status) return {};
-  if (!S_ISREG(status->st_mode)) return fail(ErrorCode::Io, "exists and is not a file; choose another name");
-  if (!force) return fail(ErrorCode::Io, "already exists; choose another name, or overwrite it with --force");
+  if (status && !S_ISREG(status->st_mode)) return fail(ErrorCode::Io, "exists and is not a file; choose another name");
+  if (status && !force) {
+    return fail(ErrorCode::Io, "already exists; choose another name, or overwrite it with --force");
+  }
+  const auto tried = AtomicFile::create(path);
+  if (!tried) return std::unexpected(tried.error());
   return {};
 }
 

@@ -3,12 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <vector>
 
 #include "app/author/material/painting.h"
 #include "app/author/package/key_frames.h"
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
+#include "tests/support/film/clip_maker.h"
 
 namespace relievo {
 namespace {
@@ -85,17 +87,25 @@ TEST(AuthorNotes, SayThatTheMaterialTrackIsLeftOut) {
 }
 
 TEST(AuthorOutput, IsCheckedBeforeAnyWork) {
-  const auto refused = [](const OutputOptions& output) {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](OutputOptions output) {
+    if (output.path.starts_with("in/")) output.path = folder / output.path.substr(3);
     const auto checked = checkOutput(output);
     return checked ? std::string() : std::string(checked.error().message);
   };
-  for (const char* path : {"no/a.mkv", "no/a.MP4", "no/a.ts", "no/a.m3u8", "udp://127.0.0.1:5000"}) {
+  for (const char* path : {"in/a.mkv", "in/a.MP4", "in/a.ts", "in/a.m3u8", "udp://127.0.0.1:5000"}) {
     EXPECT_EQ(refused({.path = path}), "") << path;
   }
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "")) << "trying leaves nothing behind";
+  for (const char* path : {"in/none/a.mkv", "in/none/a.ts", "in/none/a.m3u8"}) {
+    EXPECT_THAT(refused({.path = path}), HasSubstr("its folder does not exist")) << path;
+  }
+  const auto preview = checkPreview({.path = "a.mkv", .preview = folder / "none/a.png"});
+  EXPECT_EQ(preview.error().code, ErrorCode::NotFound);
   EXPECT_THAT(refused({.path = "a.avi"}), HasSubstr(".m3u8"));
-  EXPECT_EQ(refused({.path = "no/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
-  EXPECT_THAT(refused({.path = "no/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
-  EXPECT_THAT(refused({.path = "no/a.mkv", .depth = {.bits = 12}}), HasSubstr("h264 has 8 and 10"));
+  EXPECT_EQ(refused({.path = "in/a.mkv", .depth = {.codec = VideoCodec::Ffv1, .bits = 16}}), "");
+  EXPECT_THAT(refused({.path = "in/a.ts", .depth = {.codec = VideoCodec::Ffv1}}), HasSubstr("write a .mkv"));
+  EXPECT_THAT(refused({.path = "in/a.mkv", .depth = {.bits = 12}}), HasSubstr("h264 has 8 and 10"));
   for (const char* path : {"udp://[::1]:65535?pkt_size=1316", "srt://localhost:9000/"}) {
     EXPECT_EQ(refused({.path = path}), "") << path;
   }
