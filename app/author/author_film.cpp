@@ -3,6 +3,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "app/author/author.h"
 #include "app/author/package/film_kind.h"
@@ -17,6 +18,7 @@
 namespace relievo {
 namespace {
 
+constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"};
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
 
 // Interrupts a reader that waits for a disk or a network when the program is to stop.
@@ -67,11 +69,10 @@ class FilmSupply {
     return {};
   }
   [[nodiscard]] Outcome<std::optional<FramePair>> next() {
-    if (estimated_) return estimated_->next(reader_);
-    auto pair = reader_.next();
-    while (views_ && pair && *pair && (*pair)->right.empty()) pair = reader_.next();  // a view is lost: left out
-    if (!pair) return failOn(reader_.failedThing(), pair.error());
-    if (!views_ || !*pair) return std::move(*pair);
+    if (estimated_) return estimated_->next([this] { return read(); });
+    auto pair = read();
+    while (views_ && pair && *pair && (*pair)->right.empty()) pair = read();  // a view is lost: left out
+    if (!views_ || !pair || !*pair) return pair;
     auto made = views_->withDepth(std::move(**pair));
     if (!made) return failOn(views_->source().url, made.error());
     return std::move(*made);
@@ -88,7 +89,25 @@ class FilmSupply {
   [[nodiscard]] PairReader& reader() noexcept { return reader_; }
 
  private:
+  // A live film ends where the size of its pictures changes.
+  [[nodiscard]] Outcome<std::optional<FramePair>> read() {
+    auto pair = reader_.next();
+    if (!pair) return failOn(reader_.failedThing(), pair.error());
+    if (!*pair) return std::nullopt;
+    const Frame &color = (*pair)->color, &depth = (*pair)->depth;
+    const std::pair size(color.width, color.height);
+    if (!size_) size_ = size;
+    const FilmInfo& info = reader_.info();
+    const bool depth_changes = !depth.empty() && (depth.width != info.depth_width || depth.height != info.depth_height);
+    if (size == *size_ && !depth_changes) return std::move(*pair);
+    const char* const track = depth_changes ? "depth" : "colour";
+    if (!(*pair)->taken) return failOn(track, kOtherSize);
+    log(LogLevel::Warning, track, "the film ends there: %s", kOtherSize.message);
+    return std::nullopt;
+  }
+
   PairReader reader_;
+  std::optional<std::pair<int, int>> size_;  // of the colour
   std::optional<StereoFilm> views_;
   std::optional<EstimatedFilm> estimated_;
 };
@@ -112,12 +131,6 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
   bool live = false;  // ends on request, when its camera is unplugged or its pictures change, and is complete then
   bool whole = true;
   std::optional<CancelsAnswers> kept;
-  const auto endsThere = [&](const Error& error) {
-    const bool changes = error.code == ErrorCode::Unsupported;
-    if (!live || (!changes && !reader.isSourceLost(error))) return false;
-    log(LogLevel::Warning, source.url.c_str(), "the film ends there: %s", error.message);
-    return true;
-  };
   for (std::uint64_t done = 1;; ++done) {
     auto pair = supply.next();
     if (stop.load(std::memory_order_relaxed)) {
@@ -127,7 +140,10 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
       whole = false;
       break;
     }
-    if (!pair && endsThere(pair.error().error)) break;
+    if (!pair && live && reader.isSourceLost(pair.error().error)) {
+      log(LogLevel::Warning, source.url.c_str(), "the film ends there: %s", pair.error().error.message);
+      break;
+    }
     if (!pair) return failed(pair.error());
     if (!*pair) break;
     live = (*pair)->taken.has_value();
@@ -137,7 +153,6 @@ Outcome<AuthorSummary> authorFilm(const SourceOptions& source, const PairReader:
       if (auto begun = packager->begin(**pair); !begun) return failed(begun.error());
     }
     auto written = packager->write(**pair);
-    if (!written && done > 1 && endsThere(written.error().error)) break;
     if (!written) return failed(written.error());
     progress(done, expectedFrames(reader.info()));
   }

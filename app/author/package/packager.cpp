@@ -123,9 +123,6 @@ Outcome<void> Packager::write(const FramePair& pair) {
   }
   last_color_ = pair.color.pts;
   const Frame color = crop(pair.color, 0, 0, pair.color.width - cut_.color_cols, pair.color.height - cut_.color_rows);
-  if (color.width != format_.color_width || color.height != format_.color_height) {
-    return failOn("colour", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
-  }
   const bool depth_is_new = !pair.depth.empty() && (!last_depth_ || pair.depth.pts >= *last_depth_ + kLeastStep);
   const bool begins_shot = depth_is_new && beginsShot(pair.depth);
   const bool key = key_frames_.isDue(color.pts, depth_is_new || pair.depth.empty(), begins_shot);
@@ -138,9 +135,6 @@ Outcome<void> Packager::write(const FramePair& pair) {
 
   last_depth_ = pair.depth.pts;
   const Frame depth = crop(pair.depth, 0, 0, pair.depth.width - cut_.depth_cols, pair.depth.height - cut_.depth_rows);
-  if (depth.width != format_.depth_width || depth.height != format_.depth_height) {
-    return failOn("depth", {ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"});
-  }
   if (!output_.preview.empty()) {
     const std::lock_guard lock(preview_mutex_);
     preview_.before(packed, usualBox(pair.color, pair.depth), depth, sourceCalibration(), expectedFrames(info_));

@@ -36,6 +36,7 @@ class Packager {
 
   // Call before the first `write`, with the pair that is written first.
   [[nodiscard]] Outcome<void> begin(const FramePair& pair);
+  // All pictures of a track have one size.
   [[nodiscard]] Outcome<void> write(const FramePair& pair);
   // `whole`: see FilmWriter::finish.
   [[nodiscard]] Outcome<AuthorSummary> finish(bool whole);

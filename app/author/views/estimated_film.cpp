@@ -16,7 +16,6 @@ namespace {
 
 constexpr Error kHasDepth{ErrorCode::InvalidArgument, 0,
                           "has depth, in it or in a file beside it, which relievo probe names; leave --depth-from out"};
-constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"};
 constexpr Error kTooSmall{ErrorCode::Unsupported, 0, "its pictures are too small to guess depth from"};
 constexpr int kLeastSide = 16;
 
@@ -71,9 +70,9 @@ Outcome<void> EstimatedFilm::start(const Frame& color) {
 }
 
 // Gives the estimator the next picture; false at the film's end.
-Outcome<bool> EstimatedFilm::readOne(PairReader& reader) {
-  auto pair = reader.next();
-  if (!pair) return failOn(reader.failedThing(), pair.error());
+Outcome<bool> EstimatedFilm::readOne(const ReadPair& read) {
+  auto pair = read();
+  if (!pair) return std::unexpected(pair.error());
   if (!*pair) {
     at_end_ = true;
     if (estimator_) estimator_->end();
@@ -83,14 +82,13 @@ Outcome<bool> EstimatedFilm::readOne(PairReader& reader) {
   if (!estimator_) {
     if (auto started = start(color); !started) return std::unexpected(started.error());
   }
-  if (color.width != color_.cols || color.height != color_.rows) return failOn("colour", kOtherSize);
   RawPicture picture = rawOf(color);
   waiting_.push_back({std::move(**pair), picture});
   if (auto given = estimator_->give(std::move(picture)); !given) return std::unexpected(given.error());
   return true;
 }
 
-Outcome<std::optional<FramePair>> EstimatedFilm::next(PairReader& reader) {
+Outcome<std::optional<FramePair>> EstimatedFilm::next(const ReadPair& read) {
   for (;;) {
     if (estimator_) {
       auto estimate = estimator_->take();
@@ -98,7 +96,7 @@ Outcome<std::optional<FramePair>> EstimatedFilm::next(PairReader& reader) {
       if (*estimate) return withDepth(**estimate);
     }
     if (at_end_) return std::nullopt;
-    if (auto read = readOne(reader); !read) return std::unexpected(read.error());
+    if (auto given = readOne(read); !given) return std::unexpected(given.error());
   }
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,8 +35,10 @@ class EstimatedFilm {
   [[nodiscard]] static Outcome<EstimatedFilm> of(const SourceOptions& source, const FilmInfo& info,
                                                  OneViewWishes wishes, const std::atomic<bool>& stop);
 
+  // Returns the film's next pair, with pictures of one size; nullopt after the last one.
+  using ReadPair = std::function<Outcome<std::optional<FramePair>>()>;
   // The next pair with its depth; nullopt after the last one. Starts the estimator at the first.
-  [[nodiscard]] Outcome<std::optional<FramePair>> next(PairReader& reader);
+  [[nodiscard]] Outcome<std::optional<FramePair>> next(const ReadPair& read);
   // Describes the film with its estimated depth.
   [[nodiscard]] static FilmInfo described(FilmInfo info, const FramePair& first);
   // What was done, one line each. Call once all pairs have been taken.
@@ -49,7 +52,7 @@ class EstimatedFilm {
 
   EstimatedFilm(OneViewWishes wishes, const std::atomic<bool>& stop) : wishes_(std::move(wishes)), stop_(&stop) {}
   [[nodiscard]] Outcome<void> start(const Frame& color);
-  [[nodiscard]] Outcome<bool> readOne(PairReader& reader);
+  [[nodiscard]] Outcome<bool> readOne(const ReadPair& read);
   [[nodiscard]] FramePair withDepth(const DepthEstimate& estimate);
 
   OneViewWishes wishes_;

@@ -163,13 +163,24 @@ class LiveFile final : public MediaSource {
     if (auto opened = file_->open(url); !opened) return std::unexpected(opened.error());
     return Description{.streams = file_->streams(), .origin = {.remote = true}};
   }
-  Result<std::optional<Packet>> readPacket() override { return file_->read(); }
+  Result<std::optional<Packet>> readPacket() override {
+    if (left_ == 0) return fail(ErrorCode::Unsupported, "another format");
+    --left_;
+    return file_->read();
+  }
   Result<void> seekTo(MediaTime target) override { return file_->seek(target); }
   void closeSource() noexcept override { file_->close(); }
   void interrupted() noexcept override { file_->interrupt(); }
 
   std::unique_ptr<MediaSource> file_ = makeFfmpegSource();
+  int left_;
+
+ public:
+  explicit LiveFile(int packets) : left_(packets) {}
 };
+PairReader::Backends liveOf(int packets) {
+  return {[packets](const std::string&) { return std::make_unique<LiveFile>(packets); }, kBackends.make_decoder};
+}
 
 TEST_F(AuthorFilm, OfACameraEndsWhereThePicturesChangeTheirSize) {
   std::string both;
@@ -180,14 +191,22 @@ TEST_F(AuthorFilm, OfACameraEndsWhereThePicturesChangeTheirSize) {
     both += textOf(folder_ / "part.ts");
   }
   std::ofstream(folder_ / "film.ts") << both;
-  const PairReader::Backends live{[](const std::string&) { return std::make_unique<LiveFile>(); },
-                                  kBackends.make_decoder};
   const SourceOptions source{.url = folder_ / "film.ts", .packing = Packing::DepthAlone};
-  const auto summary = authorFilm(source, live, {.path = folder_ / "out.mkv"}, stop_, kNoReport);
+  const auto summary = authorFilm(source, liveOf(1000), {.path = folder_ / "out.mkv"}, stop_, kNoReport);
   ASSERT_TRUE(summary.has_value()) << summary.error().thing << summary.error().error.message;
   EXPECT_EQ(summary->totals.color.frames, 30u);
   EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u);
   EXPECT_FALSE(authorFilm(source, kBackends, {.path = folder_ / "file.mkv"}, stop_, kNoReport)) << "a file is cut";
+}
+
+TEST_F(AuthorFilm, OfACameraFailsAtAnyOtherPictureThatCannotBeRead) {
+  ClipTrack track = depthTrack("yuv420p", [](int c, int r, int) { return static_cast<unsigned>(c + r); });
+  track.codec = "libx264";
+  makeClip(folder_ / "film.ts", {track});
+  const SourceOptions source{.url = folder_ / "film.ts", .packing = Packing::DepthAlone};
+  const auto summary = authorFilm(source, liveOf(20), {.path = folder_ / "out.mkv"}, stop_, kNoReport);
+  ASSERT_FALSE(summary.has_value());
+  EXPECT_STREQ(summary.error().error.message, "another format");
 }
 
 TEST_F(AuthorFilm, SentOverTheNetworkItsSoundEndsWithThePicturesWhenItIsInterrupted) {
