@@ -27,6 +27,13 @@ int numberOf(std::string_view name) {
   return std::from_chars(name.data() + kBefore.size(), last, number).ptr == last ? number : -1;
 }
 
+bool mayHave(const std::string& path, const char* kind, unsigned code) {
+  const std::string name = std::filesystem::path(path).filename();
+  std::ifstream file("/sys/class/input/" + name + "/device/capabilities/" + kind);
+  std::string words;
+  return !std::getline(file, words) || listsKey(words, code);
+}
+
 }  // namespace
 
 std::vector<EventNode> listEventNodes() {
@@ -51,10 +58,11 @@ bool takeNode(int fd) noexcept {
 }
 
 bool mayHaveKey(const std::string& path, unsigned code) {
-  const std::string name = std::filesystem::path(path).filename();
-  std::ifstream file("/sys/class/input/" + name + "/device/capabilities/key");
-  std::string words;
-  return !std::getline(file, words) || listsKey(words, code);
+  return mayHave(path, "key", code);
+}
+
+bool mayHaveMotion(const std::string& path, unsigned code) {
+  return mayHave(path, "rel", code);
 }
 
 bool listsKey(std::string_view words, unsigned code) noexcept {

@@ -26,6 +26,8 @@ struct EventNode {
 // Whether the node's device may have a key, by what sysfs says of it; true where that cannot be read. Does not open the
 // node: to close one again takes the kernel many milliseconds.
 [[nodiscard]] bool mayHaveKey(const std::string& path, unsigned code);
+// Likewise for a relative axis.
+[[nodiscard]] bool mayHaveMotion(const std::string& path, unsigned code);
 // Whether a key is among those of sysfs's `capabilities/key`: a bit each, in hexadecimal words, the highest first.
 [[nodiscard]] bool listsKey(std::string_view words, unsigned code) noexcept;
 

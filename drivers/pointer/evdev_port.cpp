@@ -34,6 +34,11 @@ bool isMouse(int fd) {
   return mouse;
 }
 
+// By what sysfs shows to everybody; of other devices it does not matter that they may not be opened.
+bool mayBeMouse(const std::string& path) {
+  return mayHaveKey(path, BTN_LEFT) && mayHaveMotion(path, REL_X);
+}
+
 UniqueFd openEvents(const std::string& path) {
   return UniqueFd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
 }
@@ -81,7 +86,7 @@ class EvdevPort final : public MousePort {
     bool refused = false, taken = false;
     for (const EventNode& node : listEventNodes()) {
       fd_ = openEvents(node.path);
-      refused = refused || (!fd_.valid() && errno == EACCES);
+      refused = refused || (!fd_.valid() && errno == EACCES && mayBeMouse(node.path));
       if (!fd_.valid() || !isMouse(fd_.get())) continue;
       if (takeNode(fd_.get())) return {};
       taken = true;

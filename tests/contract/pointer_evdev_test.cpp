@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pointer on nodes of /dev/input that umockdev simulates: libevdev finds the mouse, read(2) reads its events.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/input.h>
 
@@ -7,6 +8,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "drivers/pointer/pointer.h"
@@ -133,6 +135,19 @@ TEST_F(PointerEvdev, WhatIsNoMouseIsRefused) {
   EXPECT_EQ(makePointer("/dev/input/event0", clock_)->open().error().code, ErrorCode::Unsupported);
   EXPECT_EQ(makePointer("/dev/input/event9", clock_)->open().error().code, ErrorCode::NotFound);
   EXPECT_EQ(makePointer("", clock_)->open().error().code, ErrorCode::NotFound);
+}
+
+TEST_F(PointerEvdev, OnlyAMouseThatMayNotBeOpenedLacksAPermission) {
+  if (sizeof(long) != 8) GTEST_SKIP() << "words of 32 bits";
+  const auto told = [this](const char* keys, const char* axes) {
+    return toldOfAClosedNode({{"key", keys}, {"rel", axes}},
+                             [this] { return std::string(makePointer("", clock_)->open().error().message); });
+  };
+  EXPECT_THAT(told("10000 402000000 3803078f800d001 feffffdfffefffff fffffffffffffffe", "0"),
+              testing::StartsWith("no mouse was found"))
+      << "a keyboard";
+  EXPECT_THAT(told("e520 10000 0 0 0 0", "0"), testing::StartsWith("no mouse was found")) << "a touchpad";
+  EXPECT_THAT(told("1f0000 0 0 0 0", "1943"), testing::StartsWith("no permission to read the mouse"));
 }
 
 }  // namespace
