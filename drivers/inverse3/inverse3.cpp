@@ -11,6 +11,7 @@
 #include "drivers/inverse3/force_message.h"
 #include "drivers/inverse3/motion_gate.h"
 #include "drivers/inverse3/snapshot.h"
+#include "drivers/inverse3/taken_arm.h"
 #include "hal/haptic_rate.h"
 
 namespace relievo {
@@ -95,12 +96,25 @@ class Inverse3 final : public HapticDevice {
       if (cancelled()) return fail(ErrorCode::Cancelled, "opening the Inverse3 was cancelled");
       if (auto heard = channel_.listen(); !heard) return std::unexpected(heard.error());
       while (const auto message = channel_.next()) {
-        if (const auto snapshot = readSnapshot(message->text, {})) return *snapshot;
+        if (readSnapshot(message->text, {})) return choose(message->text);
       }
       clock_.sleepUntil(clock_.now() + kTick);
     }
     return fail(ErrorCode::Unsupported,
                 "the program that answers there does not speak the protocol of the Haply Inverse service 3.1 to 3.5");
+  }
+
+  // The arm that it had before, else the first one that no other finger has.
+  Result<Snapshot> choose(std::string_view text) {
+    const auto own = readSnapshot(text, id_.text());
+    if (own && !own->id.text().empty() && !id_.text().empty() && arm_.take(own->id)) return *own;
+    for (int place = 0;; ++place) {
+      const auto arm = readSnapshot(text, {}, place);
+      if (arm->id.text().empty() && place > 0)
+        return fail(ErrorCode::NotFound,
+                    "the Inverse3 is already a finger; plug in another one, or leave one --haptic out");
+      if (arm->id.text().empty() || arm_.take(arm->id)) return *arm;
+    }
   }
 
   Result<void> greet() {
@@ -161,6 +175,7 @@ class Inverse3 final : public HapticDevice {
   void closeDevice() noexcept override {
     session_.end();
     channel_.close();
+    arm_.letGo();
   }
 
   struct News {
@@ -214,6 +229,7 @@ class Inverse3 final : public HapticDevice {
   ForceSession session_;
   ForceMessage message_;
   MotionGate gate_;
+  TakenArm arm_;
   DeviceId id_;
   glm::dvec3 centre_m_{0};
   HapticSample sample_;

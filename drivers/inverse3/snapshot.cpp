@@ -83,10 +83,11 @@ std::uint32_t readGrip(JsonCursor& json) RELIEVO_RT {
   return down;
 }
 
-void take(const Arm& arm, std::string_view wanted, Snapshot& to) RELIEVO_RT {
+// `place` counts down to the device that is asked for, if its name is not given.
+void take(const Arm& arm, std::string_view wanted, int& place, Snapshot& to) RELIEVO_RT {
   to.from_3_5 = to.from_3_5 || arm.from_3_5;
   const bool good = !arm.id.text().empty() && to.id.text().empty();
-  if (!good || (!wanted.empty() && arm.id.text() != wanted)) return;
+  if (!good || (wanted.empty() ? place-- > 0 : arm.id.text() != wanted)) return;
   to.id = arm.id;
   to.position_m = arm.position_m;
   to.powered = arm.powered;
@@ -101,7 +102,7 @@ DeviceId::DeviceId(std::string_view text) RELIEVO_RT {
   size_ = static_cast<std::uint8_t>(text.size());
 }
 
-std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted) RELIEVO_RT {
+std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted, int place) RELIEVO_RT {
   JsonCursor json(text);
   Snapshot snapshot;
   if (!json.isObject()) return std::nullopt;
@@ -111,7 +112,7 @@ std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wan
     (grip || key == "inverse3" || key == "session_id" ? known : strange) = true;
     if (key == "inverse3") {
       snapshot.of_3_0 = snapshot.of_3_0 || json.isObject();
-      json.array([&]() RELIEVO_RT { take(readArm(json), wanted, snapshot); });
+      json.array([&]() RELIEVO_RT { take(readArm(json), wanted, place, snapshot); });
     } else if (grip) {
       json.array([&]() RELIEVO_RT { snapshot.buttons |= readGrip(json); });
     } else {

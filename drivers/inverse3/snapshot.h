@@ -26,17 +26,18 @@ class DeviceId {
 };
 
 struct Snapshot {
-  bool from_3_5 = false;  // has what only versions from 3.5 on send
-  bool known = false;     // lists devices, or nothing at all
-  bool of_3_0 = false;    // lists them in the older form, by name, as the service does on port 10000
-  DeviceId id;            // of the first Inverse3 listed, or of the one asked for; empty if it is not listed
+  bool from_3_5 = false;                 // has what only versions from 3.5 on send
+  bool known = false;                    // lists devices, or nothing at all
+  bool of_3_0 = false;                   // lists them in the older form, by name, as the service does on port 10000
+  DeviceId id;                           // of the Inverse3 that was asked for; empty if it is not listed
   std::optional<glm::dvec3> position_m;  // the service's frame: x right, y forward, z up
   bool powered = true, ready = true;     // unless the service says otherwise
   std::uint32_t buttons = 0;             // of any grip: a, b, c are the bits 0, 1, 2
 };
 
-// Empty unless `text` is one whole JSON object. `wanted`: the device asked for; empty: the first one. Fields of other
-// kinds than expected and numbers beyond a metre are as if absent.
-[[nodiscard]] std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted) RELIEVO_RT;
+// Empty unless `text` is one whole JSON object. `wanted`: the device asked for; empty: the one at `place`, from 0.
+// Fields of other kinds than expected and numbers beyond a metre are as if absent.
+[[nodiscard]] std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted,
+                                                   int place = 0) RELIEVO_RT;
 
 }  // namespace relievo::inverse3

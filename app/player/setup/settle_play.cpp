@@ -32,9 +32,8 @@ void settleFingers(PlayOptions& play) {
 
 // A device that both fingers name is given the forces of both. Named without a path, two are found for two fingers.
 bool isOneDevice(const PlayOptions& play) {
-  if (play.haptic != play.second_haptic) return false;
   const bool by_path = play.haptic.withArgument("gamepad") || play.haptic.withArgument("pointer");
-  return by_path || play.haptic.word == "inverse3";
+  return by_path && play.haptic == play.second_haptic;
 }
 
 // A window comes with its keys and its mouse; other displays do not have them. A whole screen is watched from a sofa.

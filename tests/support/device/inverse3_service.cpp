@@ -22,8 +22,6 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-constexpr const char* kId = "049D";
-
 std::string acceptKey(const std::string& key) {
   const std::string text = key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
   AVSHA* const sha = av_sha_alloc();
@@ -183,7 +181,7 @@ void Inverse3Service::command(const std::string& text, MonotonicTime now) {
   }
   if (message.contains("session")) profile_ = message["session"]["configure"]["profile"].value("name", "");
   for (const json& arm : valueOf(message, "inverse3")) {
-    if (arm.value("device_id", "") != kId) error_ = "another device: " + text;
+    if (arm.value("device_id", "") != id) error_ = "another device: " + text;
     const std::string preset = valueOf(valueOf(arm, "configure"), "preset").value("preset", "");
     centred_ = centred_ || (version_ == Version::V3_5 && preset == "arm_front_centered");
     const json& force = valueOf(valueOf(arm, "commands"), "set_cursor_force");
@@ -240,7 +238,8 @@ void Inverse3Service::say(std::string frames, MonotonicTime due) {
 
 std::string Inverse3Service::stateText(MonotonicTime now, bool whole, const glm::dvec3& error_mm) {
   std::string text = version_ == Version::V3_5 ? R"({"session_id":7,"inverse3":[)" : R"({"inverse3":[)";
-  if (plugged) text += armText(now, whole, error_mm);
+  if (!listed_before.empty()) text += armText(listed_before, now, whole, glm::dvec3(50)) + ",";
+  if (plugged) text += armText(id, now, whole, error_mm);
   text += R"(],"verse_grip":[{"device_id":"61548",)";
   if (whole) text += R"("config":{"port":"COM3","type":"verse_grip"},)";
   text +=
@@ -253,13 +252,14 @@ std::string Inverse3Service::stateText(MonotonicTime now, bool whole, const glm:
   return text;
 }
 
-std::string Inverse3Service::armText(MonotonicTime now, bool whole, const glm::dvec3& error_mm) const {
+std::string Inverse3Service::armText(const std::string& name, MonotonicTime now, bool whole,
+                                     const glm::dvec3& error_mm) const {
   const glm::dvec3 place_mm = hand(toSeconds(now - began_)) + error_mm;
   // x right, y forward, z up, in metres; from the base unless another origin was asked for.
   glm::dvec3 place_m(place_mm.x / 1000, -place_mm.z / 1000, place_mm.y / 1000);
   if (!centred_) place_m += glm::dvec3(0, -0.15, 0.19);
   const bool modern = version_ == Version::V3_5;
-  std::string text = std::string(R"({"device_id":")") + kId + "\",";
+  std::string text = std::string(R"({"device_id":")") + name + "\",";
   if (whole) {
     text += R"("config":{"type":"inverse3","device_info":{"minor_version":1,"major_version":7,"id":"049D","model":4,)"
             R"("uuid":"2D35F80DD9005F599B68F49944CB04BA"},"port":"COM13","gravity_compensation":{"enabled":true,)"

@@ -41,7 +41,8 @@ class Inverse3Service {
   // The hand's position in mm: x right, y up, z toward the user, from the middle of the workspace.
   std::function<glm::dvec3(double t_s)> hand = [](double) { return glm::dvec3(0); };
   bool running = true, plugged = true, powered = true, ready = true, deaf = false;
-  bool comes_back = false;  // it runs again when it is connected to
+  std::string id = "049D", listed_before;  // its arm; another one, if it is not empty
+  bool comes_back = false;                 // it runs again when it is connected to
   bool button_a = false, button_b = false, wired_button = false;
   ServiceFaults faults;
 
@@ -87,7 +88,8 @@ class Inverse3Service {
   void answer(MonotonicTime now);
   void say(std::string frames, MonotonicTime due);
   [[nodiscard]] std::string stateText(MonotonicTime now, bool whole, const glm::dvec3& error_mm);
-  [[nodiscard]] std::string armText(MonotonicTime now, bool whole, const glm::dvec3& error_mm) const;
+  [[nodiscard]] std::string armText(const std::string& name, MonotonicTime now, bool whole,
+                                    const glm::dvec3& error_mm) const;
   void setForce(const glm::dvec3& force_n, MonotonicTime now);
   void endConnection();
 

@@ -150,6 +150,32 @@ TEST_P(Inverse3Device, WhatIsMissingIsSaid) {
   EXPECT_EQ(bench.device->open().error().code, ErrorCode::NotFound);
 }
 
+// By whatever names the fingers reach it.
+TEST_P(Inverse3Device, AnArmIsOneFingerAlone) {
+  ASSERT_TRUE(bench.bringUp());
+  Bench other(GetParam());
+  const auto opened = other.device->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+  EXPECT_THAT(opened.error().message, testing::HasSubstr("already a finger"));
+  EXPECT_FALSE(other.service.connected());
+
+  other.service.listed_before = other.service.id;
+  other.service.id = "04BA";
+  for (int time = 0; time < 2; ++time) {
+    ASSERT_TRUE(other.bringUp()) << time;
+    other.push({0, 0, 1});
+    EXPECT_NEAR(other.service.force().z, 1, 1e-3);
+    EXPECT_EQ(other.service.error(), "");
+    EXPECT_LT(glm::length(other.device->read()->position_mm), 1e-3);
+    other.device->close();
+    bench.device->close();  // the second time it keeps to its arm, although the first one is free
+  }
+  other.service.id = other.service.listed_before;
+  other.service.listed_before = "";
+  EXPECT_TRUE(other.device->open());
+}
+
 TEST(Inverse3Versions, AnotherVersionIsRefused) {
   Bench bench(Version::V9);
   const auto opened = bench.device->open();
