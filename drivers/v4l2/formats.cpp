@@ -76,17 +76,30 @@ void arrange(Frame& frame, const Format& format) noexcept {
   }
 }
 
-// A camera's YUV has limited range and the BT.601 matrix unless specified otherwise.
+ColorMatrix matrixOf(std::uint32_t encoding) noexcept {
+  switch (encoding) {
+    case V4L2_YCBCR_ENC_709:
+    case V4L2_YCBCR_ENC_XV709:
+      return ColorMatrix::Bt709;
+    case V4L2_YCBCR_ENC_BT2020:
+      return ColorMatrix::Bt2020;
+    default:
+      return ColorMatrix::Bt601;
+  }
+}
+
+// What the driver leaves open follows from its colour space, by the kernel's own rules.
 void signal(Frame& frame, const v4l2_pix_format& picture) noexcept {
   const bool told = picture.priv == V4L2_PIX_FMT_PRIV_MAGIC;
   const bool yuv = frame.model == ColorModel::Yuv;
-  const bool limited = told && picture.quantization == V4L2_QUANTIZATION_LIM_RANGE;
-  const bool full = told && picture.quantization == V4L2_QUANTIZATION_FULL_RANGE;
-  frame.range = limited || (yuv && !full) ? ColorRange::Limited : ColorRange::Full;
-  if (frame.components[0].bits > 8) frame.range = ColorRange::Full;  // depth
-  if (yuv) {
-    frame.matrix = told && picture.ycbcr_enc == V4L2_YCBCR_ENC_709 ? ColorMatrix::Bt709 : ColorMatrix::Bt601;
-  }
+  const std::uint32_t space = picture.colorspace;
+  std::uint32_t encoding = V4L2_MAP_YCBCR_ENC_DEFAULT(space);
+  if (told && picture.ycbcr_enc != V4L2_YCBCR_ENC_DEFAULT) encoding = picture.ycbcr_enc;
+  std::uint32_t range = V4L2_MAP_QUANTIZATION_DEFAULT(!yuv, space, encoding);
+  if (told && picture.quantization != V4L2_QUANTIZATION_DEFAULT) range = picture.quantization;
+  const bool depth = frame.components[0].bits > 8;
+  frame.range = depth || range == V4L2_QUANTIZATION_FULL_RANGE ? ColorRange::Full : ColorRange::Limited;
+  if (yuv) frame.matrix = matrixOf(encoding);
 }
 
 }  // namespace
