@@ -34,7 +34,7 @@ struct StereoSignals {
 
 struct DisplayCapabilities {
   const char* name = "";
-  bool gles = false;           // a GLES 3 context is current on the opener's thread while open
+  bool gles = false;           // a GLES 3 context is current on the opener's thread while open; else nothing is drawn
   Duration refresh_period{0};  // of the screen, known from `open` on; 0: shows each frame at once
   StereoSignals stereo;        // supported by the screen, known from `open` on
 };

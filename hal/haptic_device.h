@@ -39,7 +39,8 @@ struct HapticSample {
 // `write` on the real-time thread; `cancel` on any thread. Blocking: `open` may take seconds, and `home` as long as the
 // user takes to move the handle through its range; `read` and `write` never longer than a tick.
 // Safety: the force is zero from `open` to the first `write`, after `stop`, `close` and Lost, and when no `write` comes
-// within the back end's watchdog time.
+// within the back end's watchdog time. That holds while the real-time thread hangs and calls nothing: a thread of the
+// back end's own, or the device itself, has to watch.
 class HapticDevice {
  public:
   enum class State : std::uint8_t { Closed, Opened, Ready, Running, Lost };

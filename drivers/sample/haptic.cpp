@@ -44,8 +44,8 @@ class SampleHaptic final : public HapticDevice {
   Result<HapticSample> readSample() RELIEVO_RT override {
     const auto position_mm = port_->readPosition();
     if (!position_mm) return std::unexpected(position_mm.error());
-    // Without a force for that long, the task hangs. If the hang may be in here, let a separate thread
-    // (drivers/force/watchdog.h) or the device itself watch.
+    // Without a force for that long, the task hangs. One that hangs between two ticks does not come here: where there
+    // are motors, a thread (drivers/force/watchdog.h) or the device itself watches.
     if (last_force_ && clock_.now() - *last_force_ > kWatchdog) {
       if (auto stopped = push(glm::dvec3(0)); !stopped) return std::unexpected(stopped.error());
       last_force_.reset();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same short film for every back end of source and decoder: 30 pictures of 64 x 48 at 25 a second, every tenth a
-// key frame.
+// key frame. A decoder is tested with packets of a source: a small one that makes them up will do.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ struct FilmBackend {
   std::string (*url)();
   const char* missing_url;  // null if every URL is a film
   Duration key_step = std::chrono::milliseconds(400);
-  bool titled = true;  // the container has a tag TITLE
+  bool titled = true;  // the container has a tag TITLE, which is "film"
 };
 inline void PrintTo(const FilmBackend& backend, std::ostream* out) {
   *out << backend.name;

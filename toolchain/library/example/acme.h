@@ -19,12 +19,13 @@ class Wire {
   virtual ~Wire() = default;
   virtual relievo::Result<void> open() = 0;  // NotFound, PermissionDenied
   virtual void close() noexcept = 0;
-  // One exchange each; Lost if the arm has gone away.
+  // One exchange each; Lost if the arm has gone away. `drive` on any thread.
   virtual relievo::Result<std::array<std::int16_t, 3>> counts() RELIEVO_RT = 0;  // since it was switched on, 50 a mm
   virtual relievo::Result<void> drive(const std::array<std::int16_t, 3>& milliamps) RELIEVO_RT = 0;  // 250 mA a N
 };
 
-// `clock` must outlive the device.
-[[nodiscard]] std::unique_ptr<relievo::HapticDevice> makeArm(std::unique_ptr<Wire> wire, const relievo::Clock& clock);
+// `clock` must outlive the device. `watchdog_thread`: false for simulated time, where only `read` watches.
+[[nodiscard]] std::unique_ptr<relievo::HapticDevice> makeArm(std::unique_ptr<Wire> wire, const relievo::Clock& clock,
+                                                             bool watchdog_thread = true);
 
 }  // namespace acme

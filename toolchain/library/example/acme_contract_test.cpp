@@ -2,6 +2,8 @@
 // Acme's arm under the contract of every haptic device, on a fake wire; its axes and units.
 #include <gtest/gtest.h>
 
+#include <mutex>
+
 #include "acme.h"
 #include "tests/contract/suite/haptic_device.h"
 
@@ -12,9 +14,24 @@ using relievo::ManualClock;
 using relievo::Result;
 using Axes = std::array<std::int16_t, 3>;
 
-struct Board {
-  Axes counts{100, 200, 300}, milliamps{};
+class Board {
+ public:
+  Axes counts{100, 200, 300};
   int exchanges_left = -1;  // until it is unplugged; -1: never
+
+  void drive(const Axes& milliamps) {
+    const std::lock_guard guard(lock_);
+    milliamps_ = milliamps;
+  }
+  Axes milliamps() {
+    const std::lock_guard guard(lock_);
+    return milliamps_;
+  }
+  bool pushes() { return milliamps() != Axes{}; }
+
+ private:
+  std::mutex lock_;
+  Axes milliamps_{};
 };
 
 class FakeWire final : public acme::Wire {
@@ -28,7 +45,7 @@ class FakeWire final : public acme::Wire {
     return board_->counts;
   }
   Result<void> drive(const Axes& milliamps) RELIEVO_RT override {
-    board_->milliamps = milliamps;
+    board_->drive(milliamps);
     return {};
   }
 
@@ -39,8 +56,8 @@ class FakeWire final : public acme::Wire {
 relievo::test::HapticRig arm(ManualClock& clock, int exchanges_left) {
   auto board = std::make_shared<Board>();
   board->exchanges_left = exchanges_left;
-  auto device = acme::makeArm(std::make_unique<FakeWire>(board), clock);
-  return {board, std::move(device), [board] { return board->milliamps != Axes{}; }};
+  auto device = acme::makeArm(std::make_unique<FakeWire>(board), clock, false);
+  return {board, std::move(device), [board] { return board->pushes(); }};
 }
 
 const relievo::test::HapticBackend kArm{
@@ -51,12 +68,23 @@ INSTANTIATE_TEST_SUITE_P(Backends, HapticDeviceContract, testing::Values(kArm), 
 TEST(AcmeArm, ConvertsItsAxesAndUnits) {
   ManualClock clock;
   const auto board = std::make_shared<Board>();
-  const auto device = acme::makeArm(std::make_unique<FakeWire>(board), clock);
+  const auto device = acme::makeArm(std::make_unique<FakeWire>(board), clock, false);
   ASSERT_TRUE(device->open() && device->home() && device->start());
   board->counts = {200, 250, 0};  // 2 mm left, 1 mm toward the user, 6 mm down
   EXPECT_EQ(device->read().value().position_mm, glm::dvec3(-2, -56, 31));
   ASSERT_TRUE(device->write({1, 2, -3}));
-  EXPECT_EQ(board->milliamps, (Axes{-250, -750, 500}));
+  EXPECT_EQ(board->milliamps(), (Axes{-250, -750, 500}));
+}
+
+// Nobody reads or writes any more, and nobody stops it.
+TEST(AcmeArm, LetsGoWhenItsTaskHangs) {
+  relievo::MonotonicClock clock;
+  const auto board = std::make_shared<Board>();
+  const auto device = acme::makeArm(std::make_unique<FakeWire>(board), clock);
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  ASSERT_TRUE(device->write({1, 0, 0}));
+  for (int i = 0; i < 10000 && board->pushes(); ++i) clock.sleepUntil(clock.now() + std::chrono::milliseconds(1));
+  EXPECT_FALSE(board->pushes());
 }
 
 }  // namespace
