@@ -4,9 +4,7 @@
 
 #include <utility>
 
-#include "app/media/depth_picture.h"
 #include "app/media/pairs/pair_film.h"
-#include "app/media/reading/stereo/stereo_pair.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -32,16 +30,14 @@ Result<std::optional<Frame>> PairReader::Impl::nextColor() {
 Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
   auto supplied = supplyOwnDepth();
   if (!supplied || !supplied->frame) return supplied;
-  if (reordering.order == SampleOrder::AsStored && !registrar) return supplied;
-  auto frame = inOrder(*supplied->frame, reordering.order);
-  if (frame && registrar) frame = registrar->registered(*frame);
+  auto frame = meaning.form().ownDepth(*supplied->frame);
   if (!frame) return std::unexpected(frame.error());
   supplied->frame = std::move(*frame);
   return supplied;
 }
 
 Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
-  if (reordering.again) return DepthFollower::Supplied{std::exchange(reordering.again, std::nullopt), false};
+  if (depth_again) return DepthFollower::Supplied{std::exchange(depth_again, std::nullopt), false};
   if (!sources.depth()) {
     auto frame = sources.color()->next(*depth_beside.track);
     if (!frame) return std::unexpected(frame.error());
@@ -58,27 +54,9 @@ Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
 }
 
 Result<FramePair> PairReader::Impl::pairFor(Frame color) {
-  if (info.packing == Packing::DepthAlone) {
-    auto ordered = inOrder(color, reordering.order);
-    if (!ordered) return failOn(options.url, ordered.error());
-    Frame shown = depthPicture(*ordered, info.calibration.calibration);
-    return FramePair{std::move(shown), std::move(*ordered), true, {}, {}};
-  }
-  if (isPacked()) {
-    auto halves = halvesOf(color);
-    if (!halves) return failOn(options.url, halves.error());
-    return FramePair{std::move(halves->color), std::move(halves->depth), true, {}, {}};
-  }
-  if (isStereo(info.packing)) {
-    auto both = viewsOf(color, info.packing, views.right_first, views.squeezed);
-    if (both) return FramePair{std::move(both->left), {}, true, {}, std::move(both->right)};
-  }
-  if (info.packing == Packing::StereoLayers) {
-    Frame right = color.right ? *color.right : Frame{};
-    right.pts = color.pts;
-    color.right.reset();
-    return FramePair{std::move(color), {}, true, {}, std::move(right)};
-  }
+  auto whole = meaning.form().pairIn(color, info);
+  if (!whole) return failOn(options.url, whole.error());
+  if (*whole) return std::move(**whole);
   auto match = depthAt(color.pts);
   if (!match) return std::unexpected(match.error());
   if (info.packing == Packing::StereoTracks) {
@@ -146,7 +124,7 @@ Result<void> PairReader::open(const SourceOptions& options) {
   impl_->options = options;
   impl_->exchanged = false;
   auto opened = impl_->openFilm();
-  if (opened && impl_->wants_exchange) {
+  if (opened && impl_->meaning.wantsExchange()) {
     close();
     impl_->exchanged = true;
     opened = impl_->openFilm();
@@ -173,7 +151,7 @@ Result<std::optional<FramePair>> PairReader::next() {
     if (impl_->backends.clock != nullptr) pair->delay = impl_->backends.clock->now() - *pair->taken;
   }
   ++impl_->counters.pairs;
-  if (impl_->reach_open && !pair->depth.empty()) impl_->checkReach(pair->depth);
+  impl_->meaning.checkReach(pair->depth);
   if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
   if (impl_->info.has_depth && !impl_->info.depth_from_views && pair->depth.empty()) ++impl_->counters.without_depth;
   return std::move(*pair);
@@ -205,8 +183,8 @@ void PairReader::close() noexcept {
   Impl& film = *impl_;
   film.depth.reset();
   film.material = {};
-  film.registrar.reset();
-  film.reordering = {};
+  film.depth_again.reset();
+  film.meaning.close();
   film.own = {};
   film.color_ahead.clear();
   film.words.close();
@@ -215,7 +193,7 @@ void PairReader::close() noexcept {
   film.counters = {};
   film.key_step = Duration(0);
   film.left_out = {};
-  film.reach_open = film.wants_exchange = false;
+
   film.OpenFilm::close();
 }
 

@@ -5,7 +5,6 @@
 
 #include "app/media/frame_rate.h"
 #include "app/media/pairs/pair_film.h"
-#include "app/media/registration/own_registration.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -30,11 +29,10 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
 Result<void> PairReader::Impl::openFilm() {
   if (auto opened = inputs.open(); !opened) return opened;
   const bool known = depth || isInOnePicture();
-  if (!known) lookAround();
-  const auto plan = planFilm(*this, scout, clues.place);
+  if (!known) meaning.begin();
+  const auto plan = planFilm(*this, scout, meaning.place());
   if (!plan) return failOn(options.url, plan.error());
-  clues.packing_by = plan->packing_by;
-  clues.why.insert(clues.why.end(), plan->why.begin(), plan->why.end());
+  meaning.take(*plan);
   if (!known || info.packing == Packing::Tracks) info.packing = plan->tracks.packing;
   if (auto selected = inputs.select(plan->tracks); !selected) return selected;
   if (depth_beside.refused) loseDepth(*depth_beside.refused);
@@ -45,10 +43,12 @@ Result<void> PairReader::Impl::openFilm() {
   words.openSound();
   words.openWords();
   if (auto opened = openColor(color); !opened) return opened;
-  if (known && isInOnePicture()) return measureHalves();
+  if (known && isInOnePicture()) return meaning.measureHalves(color_ahead[0]);
   if (auto opened = openDepth(color); !opened) return opened;
-  if (isStereo(options.packing)) checkViews(color);
-  takeDepthFromViews();
+  if (!known && info.has_depth && material.refused() != nullptr) {
+    info.reading.doubts.push_back(print("its material track is left out: %s", material.refused()));
+  }
+  meaning.readViews(color, color_ahead);
   if (!info.has_depth) info.material_scale = {};
   return {};
 }
@@ -78,22 +78,10 @@ Result<void> PairReader::Impl::openColor(const StreamInfo& color) {
   return {};
 }
 
-// A recording of two cameras may contain their relative position.
-void PairReader::Impl::lookForRegistration(const StreamInfo& color) {
-  if (options.registration) {
-    registrar.emplace(*options.registration);
-  } else if (const auto recorded = depth_beside.track
-                                       ? ownRegistration(sources.color()->source(), color, *depth_beside.stream)
-                                       : std::nullopt) {
-    registrar.emplace(*recorded);
-    clues.why.emplace_back("the recording describes both cameras: its depth is moved to the colour's view");
-  }
-}
-
 Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
-  lookForHalves(color);
-  if (info.packing == Packing::DepthAlone) return describeAlone(color);
-  if (isPacked()) return describeHalves(color);
+  const auto in_picture = meaning.readPicture(color, color_ahead);
+  if (!in_picture) return std::unexpected(in_picture.error());
+  if (*in_picture) return {};
   if (!depth_beside.track && !sources.depth()) return {};
   if (depth) {  // already known from the first opening
     depth->restart();
@@ -102,17 +90,16 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   }
   if (info.packing == Packing::StereoTracks) {
     depth.emplace([this] { return supplyDepth(); });
-    const bool told = options.packing == Packing::StereoTracks;
-    showViews(Packing::StereoTracks, told ? "the command line says" : "the film's tags say");
+    meaning.takeViewTracks();
     return {};
   }
-  lookForRegistration(color);
+  meaning.lookForRegistration(color);
   depth.emplace([this] { return supplyDepth(); });
   const auto first = firstDepth();
   if (first && *first != nullptr) {
-    if (!sources.depth()) return describeTrack(**first);
+    if (!sources.depth()) return meaning.readTrack(**first, color_ahead[0]);
     const MediaTime begins = (*first)->pts;
-    auto described = describeTrack(**first);
+    auto described = meaning.readTrack(**first, color_ahead[0]);
     // With two live sources the second opens later; pictures of the first from before that are dropped.
     const bool later = described && live && begins > MediaTime{} && begins < MediaTime(kLongestWait);
     if (!later) return described;
@@ -125,6 +112,18 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
   depth_beside.track.reset();
   depth.reset();
   return {};
+}
+
+// The next depth picture with its samples in order; the order may be found only from the picture itself.
+Result<const Frame*> PairReader::Impl::firstDepth() {
+  auto first = depth->peek();
+  if (!first || *first == nullptr) return first;
+  auto stored = meaning.findOrder(**first);
+  if (!stored) return std::unexpected(stored.error());
+  if (!*stored) return first;
+  depth_again = std::move(**stored);
+  depth.emplace([this] { return supplyDepth(); });
+  return depth->peek();
 }
 
 // Computes the shift that aligns a new session of the depth source with the colour.

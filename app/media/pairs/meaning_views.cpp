@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/media/pairs/pair_film.h"
+#include "app/media/pairs/film_meaning.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"
 #include "hal/media/media_names.h"
@@ -76,82 +76,97 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 }  // namespace
 
 // Two views in two layers. False if there are none.
-bool PairReader::Impl::takeLayers(const StreamInfo& color) {
+bool FilmMeaning::takeLayers(const StreamInfo& color, const std::deque<Frame>& pictures) {
   const auto layers = color.tags.find(kLayersTag);
-  const bool decoded = std::ranges::any_of(color_ahead, [](const Frame& frame) { return frame.right != nullptr; });
+  const bool decoded = std::ranges::any_of(pictures, [](const Frame& frame) { return frame.right != nullptr; });
   if (decoded) showViews(Packing::StereoLayers, "the two layers of its pictures (MV-HEVC) are");
   else if (layers != color.tags.end())
-    info.reading.doubts.emplace_back(layers->second == "2" ? kSecondUnread : kSecondMissing);
+    film_.info.reading.doubts.emplace_back(layers->second == "2" ? kSecondUnread : kSecondMissing);
   return decoded;
 }
 
 // Two views, as stated by the film itself. False if it states nothing.
-bool PairReader::Impl::takeSaidViews(const StreamInfo& color, const Frame& look) {
-  if (takeLayers(color)) return true;
-  const auto said = saidViews(color, look, options.url);
+bool FilmMeaning::takeSaidViews(const StreamInfo& color, const Frame& look, const std::deque<Frame>& pictures) {
+  if (takeLayers(color, pictures)) return true;
+  const auto said = saidViews(color, look, film_.options.url);
   if (!said) return false;
-  views.right_first = said->right_first;
+  form_.right_first = said->right_first;
   const auto squeezed = color.tags.find(kSqueezedTag);
-  if (squeezed != color.tags.end()) views.squeezed = squeezed->second == "1";
+  if (squeezed != color.tags.end()) form_.squeezed = squeezed->second == "1";
   if (said->packing == Packing::Auto)
-    info.reading.doubts.push_back(print("%s %s, in a layout that is not supported; %s", said->by, kViews, kWhatToDo));
+    film_.info.reading.doubts.push_back(
+        print("%s %s, in a layout that is not supported; %s", said->by, kViews, kWhatToDo));
   else showViews(said->packing, said->by);
   return true;
 }
 
 // By the likeness of the halves and the break between them.
-void PairReader::Impl::lookForViews(const Frame& look) {
+void FilmMeaning::lookForViews(const Frame& look) {
   const auto found = findViews(look);
   if (!found) return;
   const bool beside = *found == Packing::StereoSideBySide;
   const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
   if (breaksInTheMiddle(look, beside)) showViews(*found, (halves + " are").c_str());
-  else info.reading.doubts.push_back(print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*found)));
+  else
+    film_.info.reading.doubts.push_back(
+        print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*found)));
 }
 
-void PairReader::Impl::showViews(Packing packing, const char* by) {
-  info.packing = packing;
-  if (options.depth_from == DepthFrom::Film) info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
+void FilmMeaning::showViews(Packing packing, const char* by) {
+  film_.info.packing = packing;
+  if (film_.options.depth_from == DepthFrom::Film)
+    film_.info.reading.doubts.push_back(print("%s %s; %s", by, kViews, kShown));
 }
 
 // Checks whether the picture can be what the user has stated.
-void PairReader::Impl::checkViews(const StreamInfo& color) {
-  const Frame look = scout.tellingPicture(color_ahead[0], options.url, color.index);
-  const auto seen = viewsOf(look, info.packing, views.right_first);
+void FilmMeaning::checkViews(const StreamInfo& color, const Frame& picture) {
+  const Frame look = scout_.tellingPicture(picture, film_.options.url, color.index);
+  const auto seen = viewsOf(look, film_.info.packing, form_.right_first);
   if (!seen || !areOtherPictures(seen->left, seen->right)) return;
-  views.are_other_pictures = true;
-  info.reading.doubts.emplace_back(kOtherPictures);
+  other_pictures_ = true;
+  film_.info.reading.doubts.emplace_back(kOtherPictures);
+}
+
+void FilmMeaning::takeViewTracks() {
+  const bool told = film_.options.packing == Packing::StereoTracks;
+  showViews(Packing::StereoTracks, told ? "the command line says" : "the film's tags say");
+}
+
+void FilmMeaning::readViews(const StreamInfo& color, const std::deque<Frame>& pictures) {
+  if (isStereo(film_.options.packing)) checkViews(color, pictures[0]);
+  takeDepthFromViews();
 }
 
 // Depth that is made of each pair's views after it was read.
-void PairReader::Impl::takeDepthFromViews() {
-  if (options.depth_from != DepthFrom::Views || views.are_other_pictures) return;
-  if (!hasTwoViews(info.packing)) {
-    info.reading.doubts.emplace_back(info.has_depth ? kHasDepth : kOneView);
+void FilmMeaning::takeDepthFromViews() {
+  if (film_.options.depth_from != DepthFrom::Views || other_pictures_) return;
+  if (!hasTwoViews(film_.info.packing)) {
+    film_.info.reading.doubts.emplace_back(film_.info.has_depth ? kHasDepth : kOneView);
     return;
   }
-  info.has_depth = info.depth_from_views = true;
-  info.calibration.calibration = {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
-  info.reading.parts = {{"kind", "made from its two views as they play", CalibrationOrigin::CommandLine}};
+  film_.info.has_depth = film_.info.depth_from_views = true;
+  film_.info.calibration.calibration = {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
+  film_.info.reading.parts = {{"kind", "made from its two views as they play", CalibrationOrigin::CommandLine}};
 }
 
 // Takes the alpha channel as depth, or reports that it may be a matte.
-bool PairReader::Impl::lookForAlpha(const StreamInfo& color, const Frame& look) {
+bool FilmMeaning::lookForAlpha(const StreamInfo& color, const Frame& look) {
   const auto alpha = lookAtAlpha(look);
   if (!alpha) {
     if (saysAlpha(color))
-      info.reading.doubts.emplace_back("its alpha channel cannot be decoded here: that needs FFmpeg with libvpx");
+      film_.info.reading.doubts.emplace_back("its alpha channel cannot be decoded here: that needs FFmpeg with libvpx");
     return false;
   }
   if (!isAlphaDepth(*alpha)) {
     if (alpha->shades > 1)
-      info.reading.doubts.emplace_back("its alpha channel is taken for transparency; if it is depth: --packing alpha");
+      film_.info.reading.doubts.emplace_back(
+          "its alpha channel is taken for transparency; if it is depth: --packing alpha");
     return false;
   }
-  info.packing = Packing::Alpha;
-  clues.packing_by = CalibrationOrigin::FirstPicture;
-  clues.why.push_back(print("depth in the alpha channel: %d shades, %.0f %% of it neither transparent nor opaque",
-                            alpha->shades, 100 * alpha->between));
+  film_.info.packing = Packing::Alpha;
+  clues_.packing_by = CalibrationOrigin::FirstPicture;
+  clues_.why.push_back(print("depth in the alpha channel: %d shades, %.0f %% of it neither transparent nor opaque",
+                             alpha->shades, 100 * alpha->between));
   return true;
 }
 
