@@ -1,101 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads an open film and pairs colour with depth.
+// Hands each call to the part of the reader that does it.
 #include "app/media/pair_reader.h"
 
 #include <utility>
 
 #include "app/media/pairs/pair_film.h"
-#include "platform/log.h"
 
 namespace relievo {
-// The next colour picture, with the film's timestamp.
-Result<std::optional<Frame>> PairReader::Impl::readColor() {
-  auto frame = sources.color()->next(kColorTrack);
-  if (frame && *frame) (*frame)->pts += color_shift;
-  return frame;
-}
+namespace {
 
-Result<std::optional<Frame>> PairReader::Impl::nextColor() {
-  if (!color_ahead.empty()) {
-    std::optional<Frame> frame(std::move(color_ahead.front()));
-    color_ahead.pop_front();
-    return frame;
-  }
-  auto frame = readColor();
-  if (!frame) failed_thing = options.url;
-  return frame;
-}
+constexpr const char* kNotOpen = "no film is open; open one first";
 
-// The next depth picture, likewise, its samples in order, registered to the colour's view.
-Result<DepthFollower::Supplied> PairReader::Impl::supplyDepth() {
-  auto supplied = supplyOwnDepth();
-  if (!supplied || !supplied->frame) return supplied;
-  auto frame = meaning.form().ownDepth(*supplied->frame);
-  if (!frame) return std::unexpected(frame.error());
-  supplied->frame = std::move(*frame);
-  return supplied;
-}
-
-Result<DepthFollower::Supplied> PairReader::Impl::supplyOwnDepth() {
-  if (depth_again) return DepthFollower::Supplied{std::exchange(depth_again, std::nullopt), false};
-  if (!sources.depth()) {
-    auto frame = sources.color()->next(*depth_beside.track);
-    if (!frame) return std::unexpected(frame.error());
-    if (*frame) (*frame)->pts += color_shift;
-    return DepthFollower::Supplied{std::move(*frame), sources.color()->ended(*depth_beside.track)};
-  }
-  auto given = sources.depth()->next();
-  if (!given) return std::unexpected(given.error());
-  own.away = given->away;
-  if (given->frame.empty()) return DepthFollower::Supplied{std::nullopt, given->ended};
-  if (own.session != given->session.number) meet(given->session, given->frame.pts);
-  given->frame.pts += own.shift;
-  return DepthFollower::Supplied{std::move(given->frame), false};
-}
-
-Result<FramePair> PairReader::Impl::pairFor(Frame color) {
-  auto whole = meaning.form().pairIn(color, info);
-  if (!whole) return failOn(options.url, whole.error());
-  if (*whole) return std::move(**whole);
-  auto match = depthAt(color.pts);
-  if (!match) return std::unexpected(match.error());
-  if (info.packing == Packing::StereoTracks) {
-    return FramePair{std::move(color), {}, true, {}, std::move(match->depth)};
-  }
-  return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
-}
-
-// An error in the depth ends only the depth; an interruption is returned to the caller.
-Result<DepthFollower::Match> PairReader::Impl::depthAt(MediaTime time) {
-  if (!depth || (!depth_beside.track && !sources.depth()) || own.lost) return DepthFollower::Match{};
-  depth->setLive(live);
-  auto match = depth->at(time);
-  if (match && own.away) return DepthFollower::Match{};  // flat, rather than with the relief of another moment
-  if (match) return match;
-  if (match.error().code == ErrorCode::Cancelled) {
-    return failOn(depthUrl(), match.error());
-  }
-  if (depth_beside.track && isLoss(match.error())) return failOn(depthUrl(), match.error());  // the colour is lost too
-  loseDepth(match.error());
-  return DepthFollower::Match{};
-}
-
-// An error in the material ends only the material; if the colour is lost too, the next read of the colour reports it.
-Frame PairReader::Impl::materialAt(MediaTime time) {
-  auto found = material.at(time);
-  if (found) return std::move(*found);
-  if (found.error().code == ErrorCode::Cancelled || isLoss(found.error())) return {};
-  material.giveUp();
-  log(LogLevel::Warning, "media", "%s: the material track cannot be read from here on: %s", options.url.c_str(),
-      found.error().message);
-  return {};
-}
-
-void PairReader::Impl::loseDepth(const Error& error) {
-  own.lost = true;
-  if (std::exchange(own.loss_told, true)) return;
-  log(LogLevel::Warning, "media", "%s: no depth from here on: %s", depthUrl().c_str(), error.message);
-}
+}  // namespace
 
 PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   pairs += other.pairs;
@@ -119,14 +35,15 @@ PairReader::~PairReader() = default;
 
 Result<void> PairReader::open(const SourceOptions& options) {
   close();
-  impl_->sources.allow();
-  impl_->failed_thing.clear();
-  impl_->options = options;
-  impl_->exchanged = false;
+  OpenFilm& film = impl_->film;
+  film.sources.allow();
+  film.failed_thing.clear();
+  film.options = options;
+  film.exchanged = false;
   auto opened = impl_->openFilm();
   if (opened && impl_->meaning.wantsExchange()) {
     close();
-    impl_->exchanged = true;
+    film.exchanged = true;
     opened = impl_->openFilm();
   }
   if (!opened) close();
@@ -134,110 +51,84 @@ Result<void> PairReader::open(const SourceOptions& options) {
 }
 
 Result<std::optional<FramePair>> PairReader::next() {
-  if (!impl_->sources.color()) return fail(ErrorCode::InvalidState, Impl::kNotOpen);
-  auto color = impl_->nextColor();
-  if (!color) return std::unexpected(color.error());
-  if (!*color) return std::nullopt;
-  auto standing = impl_->depthBefore(**color);
-  if (standing) impl_->color_ahead.push_front(std::move(**color));
-  auto pair = standing ? Result<FramePair>(std::move(*standing)) : impl_->pairFor(std::move(**color));
-  if (!pair) return std::unexpected(pair.error());
-  impl_->counters.left_out += impl_->left_out.countBefore(*pair, impl_->info.frame_period);
-  pair->material = impl_->materialAt(pair->color.pts);
-  impl_->goes_on_at = pair->color.pts + impl_->info.frame_period;
-  if (impl_->live) {
-    pair->taken =
-        impl_->sources.color()->source().arrival() + (pair->color.pts - impl_->color_shift).time_since_epoch();
-    if (impl_->backends.clock != nullptr) pair->delay = impl_->backends.clock->now() - *pair->taken;
-  }
-  ++impl_->counters.pairs;
-  impl_->meaning.checkReach(pair->depth);
-  if (!pair->matched && impl_->key_step == Duration(0)) ++impl_->counters.mismatched;
-  if (impl_->info.has_depth && !impl_->info.depth_from_views && pair->depth.empty()) ++impl_->counters.without_depth;
-  return std::move(*pair);
+  if (!impl_->film.sources.color()) return fail(ErrorCode::InvalidState, kNotOpen);
+  auto pair = impl_->supply.next();
+  if (pair && *pair) impl_->meaning.checkReach((*pair)->depth);
+  return pair;
+}
+
+Result<void> PairReader::seek(MediaTime target, Duration key_step) {
+  if (!impl_->film.sources.color()) return fail(ErrorCode::InvalidState, kNotOpen);
+  return impl_->supply.seek(target, key_step);
 }
 
 bool PairReader::isSourceLost(const Error& error) const noexcept {
-  return impl_->isLoss(error) && impl_->failed_thing == impl_->options.url;
+  return impl_->film.isLoss(error) && impl_->film.failed_thing == impl_->film.options.url;
+}
+
+Result<void> PairReader::reopen() {
+  if (!impl_->film.sources.color()) return fail(ErrorCode::InvalidState, kNotOpen);
+  impl_->supply.leave();
+  if (auto opened = impl_->openFilm(); !opened) return opened;
+  return impl_->supply.goOn();
 }
 
 std::optional<AudioChunk> PairReader::nextSound() {
-  return impl_->words.nextSound(impl_->color_shift);
+  return impl_->words.nextSound(impl_->supply.shift());
 }
 
 std::optional<Subtitle> PairReader::nextSubtitle() {
-  return impl_->words.nextWords(impl_->color_shift);
+  return impl_->words.nextWords(impl_->supply.shift());
 }
 
 void PairReader::chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
-  if (!impl_->sources.color()) return;
-  if (std::exchange(impl_->info.sound, sound) != sound) impl_->words.openSound();
-  if (std::exchange(impl_->info.words, words) != words) impl_->words.openWords();
+  OpenFilm& film = impl_->film;
+  if (!film.sources.color()) return;
+  if (std::exchange(film.info.sound, sound) != sound) impl_->words.openSound();
+  if (std::exchange(film.info.words, words) != words) impl_->words.openWords();
 }
 
 bool PairReader::readAhead() {
-  return impl_->sources.color() && impl_->sources.color()->readAhead();
+  return impl_->film.sources.color() && impl_->film.sources.color()->readAhead();
+}
+
+void PairReader::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
+  if (impl_->film.sources.color()) impl_->supply.leaveOut(unreferenced, until);
 }
 
 void PairReader::close() noexcept {
-  Impl& film = *impl_;
-  film.depth.reset();
-  film.material = {};
-  film.depth_again.reset();
-  film.meaning.close();
-  film.own = {};
-  film.color_ahead.clear();
-  film.words.close();
-  film.color_shift = Duration(0);
-  film.goes_on_at = MediaTime{};
-  film.counters = {};
-  film.key_step = Duration(0);
-  film.left_out = {};
-
-  film.OpenFilm::close();
+  impl_->close();
 }
 
 void PairReader::interrupt() noexcept {
-  impl_->sources.interrupt();
+  impl_->film.sources.interrupt();
+}
+
+bool PairReader::waitsForSource() const noexcept {
+  return impl_->film.sources.waitsForColor(impl_->film.remote ? nullptr : impl_->film.backends.clock);
 }
 
 const FilmInfo& PairReader::info() const noexcept {
-  return impl_->info;
+  return impl_->film.info;
 }
 
 const std::string& PairReader::failedThing() const noexcept {
-  return impl_->failed_thing;
+  return impl_->film.failed_thing;
 }
 
 PairCounters PairReader::counters() const noexcept {
-  PairCounters counters = impl_->counters;
-  if (impl_->depth) counters.depth_skipped = impl_->depth->skipped();
-  if (impl_->sources.color()) {
-    counters.damaged += impl_->sources.color()->damaged();
-    counters.deinterlaced += impl_->sources.color()->deinterlaced();
-    counters.jumps += impl_->sources.color()->source().jumps();
-    counters.missed_pictures += impl_->sources.color()->source().missedPictures();
-    counters.missing = impl_->sources.color()->source().missing();
-  }
-  if (impl_->sources.depth()) {
-    const DepthSource::Counters depth = impl_->sources.depth()->counters();
-    counters.damaged += depth.damaged;
-    counters.deinterlaced += depth.deinterlaced;
-    counters.jumps += depth.jumps;
-    counters.missed_pictures += depth.missed_pictures;
-    counters.depth_reconnects = depth.reconnects;
-    counters.depth_missing = depth.missing;
-  }
-  return counters;
+  return impl_->supply.counters();
 }
 
 std::optional<VideoDecoder::Restart> PairReader::takeRestart() noexcept {
-  auto restart = impl_->sources.color() ? impl_->sources.color()->takeRestart() : std::nullopt;
-  return restart || !impl_->sources.depth() ? restart : impl_->sources.depth()->takeRestart();
+  const OpenSources& sources = impl_->film.sources;
+  auto restart = sources.color() ? sources.color()->takeRestart() : std::nullopt;
+  return restart || !sources.depth() ? restart : sources.depth()->takeRestart();
 }
 
 std::optional<Error> PairReader::depthLoss() const noexcept {
-  return impl_->sources.depth() ? impl_->sources.depth()->loss() : std::nullopt;
+  const DepthSource* const depth = impl_->film.sources.depth();
+  return depth != nullptr ? depth->loss() : std::nullopt;
 }
 
 }  // namespace relievo
