@@ -9,68 +9,69 @@
 namespace relievo {
 namespace {
 
-class JoinedRemote final : public RemoteInput {
+class TwoRemotes : public RemoteInput {
  public:
-  JoinedRemote(std::unique_ptr<RemoteInput> first, std::unique_ptr<RemoteInput> second)
+  TwoRemotes(std::unique_ptr<RemoteInput> first, std::unique_ptr<RemoteInput> second)
       : first_(std::move(first)), second_(std::move(second)) {}
-  ~JoinedRemote() override { close(); }
-  JoinedRemote(const JoinedRemote&) = delete;
-  JoinedRemote& operator=(const JoinedRemote&) = delete;
+  ~TwoRemotes() override { close(); }
+  TwoRemotes(const TwoRemotes&) = delete;
+  TwoRemotes& operator=(const TwoRemotes&) = delete;
 
   [[nodiscard]] bool hasPad() const noexcept override { return first_->hasPad() || second_->hasPad(); }
 
+ protected:
+  [[nodiscard]] RemoteInput& first() noexcept { return *first_; }
+  [[nodiscard]] RemoteInput& second() noexcept { return *second_; }
+
  private:
-  Result<void> openRemote() override {
-    if (auto opened = first_->open(); !opened) return opened;
-    has_second_ = second_->open().has_value();
-    return {};
-  }
-  Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
-    auto key = first_->poll(now);
-    if (!key || *key || !has_second_) return key;
-    return second_->poll(now);
-  }
-  void closeRemote() noexcept override {
+  void closeRemote() noexcept final {
     first_->close();
     second_->close();
   }
 
   std::unique_ptr<RemoteInput> first_, second_;
-  bool has_second_ = false;
 };
 
-class RemoteAtTerminal final : public RemoteInput {
+class JoinedRemote final : public TwoRemotes {
  public:
-  RemoteAtTerminal(std::unique_ptr<RemoteInput> first, std::unique_ptr<RemoteInput> terminal)
-      : first_(std::move(first)), terminal_(std::move(terminal)) {}
-  ~RemoteAtTerminal() override { close(); }
-  RemoteAtTerminal(const RemoteAtTerminal&) = delete;
-  RemoteAtTerminal& operator=(const RemoteAtTerminal&) = delete;
-
-  [[nodiscard]] bool hasPad() const noexcept override { return first_->hasPad(); }
+  using TwoRemotes::TwoRemotes;
 
  private:
   Result<void> openRemote() override {
-    const bool typed = terminal_->open().has_value();
-    const auto opened = first_->open();
+    if (auto opened = first().open(); !opened) return opened;
+    has_second_ = second().open().has_value();
+    return {};
+  }
+  Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
+    auto key = first().poll(now);
+    if (!key || *key || !has_second_) return key;
+    return second().poll(now);
+  }
+
+  bool has_second_ = false;
+};
+
+// The second is the terminal.
+class RemoteAtTerminal final : public TwoRemotes {
+ public:
+  using TwoRemotes::TwoRemotes;
+
+ private:
+  Result<void> openRemote() override {
+    const bool typed = second().open().has_value();
+    const auto opened = first().open();
     if (opened || !typed) return opened;
     log(LogLevel::Warning, "remote", "%s; until then the terminal's keys are taken", opened.error().message);
     return {};
   }
   Result<std::optional<KeyEvent>> nextKey(MonotonicTime now) override {
-    if (first_->state() != State::Open) return terminal_->poll(now);
-    while (terminal_->state() == State::Open) {
-      const auto typed = terminal_->poll(now);
+    if (first().state() != State::Open) return second().poll(now);
+    while (second().state() == State::Open) {
+      const auto typed = second().poll(now);
       if (!typed || !*typed) break;
     }
-    return first_->poll(now);
+    return first().poll(now);
   }
-  void closeRemote() noexcept override {
-    first_->close();
-    terminal_->close();
-  }
-
-  std::unique_ptr<RemoteInput> first_, terminal_;
 };
 
 }  // namespace
