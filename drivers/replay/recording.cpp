@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the columns that it needs; errors name the line.
 #include "drivers/replay/recording.h"
-#include "platform/whole_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "platform/text/number_in.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -50,11 +50,7 @@ std::size_t columnOf(const Cells& names, std::string_view name) {
 // kNone without such a column or without a number in it.
 double numberIn(const Cells& cells, std::size_t column) {
   if (column == kAbsent) return kNone;
-  const char* const begin = cells[column].data();
-  const char* const end = begin + cells[column].size();
-  double value = 0;
-  const auto [last, error] = std::from_chars(begin, end, value);
-  return error == std::errc{} && last == end ? value : kNone;
+  return relievo::numberIn<double>(cells[column]).value_or(kNone);
 }
 
 // The columns x, y and z of one position.

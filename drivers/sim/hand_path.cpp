@@ -1,37 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads hand scripts and interpolates their rows.
 #include "drivers/sim/hand_path.h"
-#include "platform/whole_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
+#include <array>
+#include <span>
+
+#include "platform/text/number_in.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
 
 constexpr std::string_view kHeader = "t_s,x_mm,y_mm,z_mm";
 
-// Reads a row of `count` comma-separated numbers; false if it is anything else.
-bool parseNumbers(std::string_view line, double* numbers, int count) {
-  const char* at = line.data();
-  const char* const end = line.data() + line.size();
-  for (int i = 0; i < count; ++i) {
-    const auto [next, error] = std::from_chars(at, end, numbers[i]);
-    if (error != std::errc{} || !std::isfinite(numbers[i])) return false;
-    at = next;
-    if (i + 1 == count) break;
-    if (at == end || *at != ',') return false;
-    ++at;
-  }
-  return at == end;
-}
-
 // Returns what is wrong with the line, or null.
 const char* addRow(std::string_view line, std::vector<HandPath::Row>& rows) {
-  double n[4] = {};
-  if (!parseNumbers(line, n, 4)) return "is not a row of a hand script; a row is four numbers: t_s,x_mm,y_mm,z_mm";
+  std::array<double, 4> n{};
+  if (!readNumbers(line, ',', std::span(n)))
+    return "is not a row of a hand script; a row is four numbers: t_s,x_mm,y_mm,z_mm";
   if (!rows.empty() && n[0] <= rows.back().t_s)
     return "its time is not after that of the row above; sort the rows by time";
   rows.push_back({n[0], {n[1], n[2], n[3]}});

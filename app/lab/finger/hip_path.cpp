@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strict reading of numbers: a typing error in a measurement must not become a number.
 #include "app/lab/finger/hip_path.h"
-#include "platform/whole_file.h"
 
 #include <array>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string_view>
+
+#include "platform/text/number_in.h"
+#include "platform/whole_file.h"
 
 namespace relievo {
 namespace {
@@ -18,14 +18,7 @@ constexpr std::string_view kHeader = "t_s,x_mm,y_mm,z_mm";
 
 std::optional<HipTick> parseRow(std::string_view row) {
   std::array<double, 4> values{};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto [end, error] = std::from_chars(row.data(), row.data() + row.size(), values[i]);
-    if (error != std::errc() || !std::isfinite(values[i])) return std::nullopt;
-    row.remove_prefix(static_cast<std::size_t>(end - row.data()));
-    const bool last = i + 1 == values.size();
-    if (last != row.empty() || (!last && row.front() != ',')) return std::nullopt;
-    if (!last) row.remove_prefix(1);
-  }
+  if (!readNumbers(row, ',', std::span(values))) return std::nullopt;
   return HipTick{values[0], {values[1], values[2], values[3]}};
 }
 
