@@ -11,6 +11,7 @@
 #include <string>
 
 #include "platform/text/lower_case.h"
+#include "platform/text/number_in.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -104,18 +105,7 @@ std::string meant(std::string_view wanted, std::span<const std::string> words) {
 }
 
 bool parseSizes(std::string_view text, std::span<double> sizes) noexcept {
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (double& size : sizes) {
-    if (&size != sizes.data()) {
-      if (at == end || *at != 'x') return false;
-      ++at;
-    }
-    const auto [next, error] = std::from_chars(at, end, size);
-    if (error != std::errc{} || !std::isfinite(size) || size <= 0) return false;
-    at = next;
-  }
-  return at == end;
+  return readNumbers(text, 'x', sizes) && std::ranges::all_of(sizes, [](double size) { return size > 0; });
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <sstream>
 #include <vector>
 
@@ -16,13 +17,14 @@
 #include "hal/haptic_rate.h"
 #include "platform/print.h"
 #include "platform/text/lower_case.h"
+#include "platform/text/number_in.h"
 
 namespace relievo {
 namespace {
 
 constexpr double kLongestDurationS = 1e9;
-constexpr double kMostPixels = 16384;             // of a display, across and down
-constexpr double kMostOfDisplay = 8192.0 * 8192;  // pixels in all: a quilt of the largest screens
+constexpr int kMostPixels = 16384;           // of a display, across and down
+constexpr int kMostOfDisplay = 8192 * 8192;  // pixels in all: a quilt of the largest screens
 constexpr const char* kNoSize =
     "a size is WIDTHxHEIGHT in pixels, each from 1 to 16384 and 67 million in all, such as 1280x720";
 constexpr const char* kStereoHelp =
@@ -55,12 +57,12 @@ void addSources(CLI::App& command, PlayOptions& play) {
 }
 
 DisplayConfig readSize(const std::string& word) {
-  std::array<double, 2> size{};
-  if (!parseSizes(word, size) || word.find_first_of(".eE") != std::string::npos || std::min(size[0], size[1]) < 1 ||
+  std::array<int, 2> size{};
+  if (!readNumbers(word, 'x', std::span(size)) || std::min(size[0], size[1]) < 1 ||
       std::max(size[0], size[1]) > kMostPixels || size[0] * size[1] > kMostOfDisplay) {
     throw WordFailure({"--size " + word, {ErrorCode::InvalidArgument, 0, kNoSize}});
   }
-  return {.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
+  return {.width = size[0], .height = size[1]};
 }
 
 Duration readDuration(double seconds) {
