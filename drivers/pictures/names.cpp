@@ -161,14 +161,15 @@ std::vector<std::int64_t> stepsOf(const std::vector<std::int64_t>& values) {
 }
 
 // Whether numbers that are too great to count pictures are the ids of a web site: they lie far apart, and their steps
-// are of any size. Times since a device was switched on may be irregular, but lie closer.
+// are of any size or seconds long. Times since a device was switched on may be irregular, but lie closer.
 bool areIds(std::vector<std::int64_t> values) {
   std::ranges::sort(values);
   if (values.front() <= kMostSeconds || values.back() - values.front() < values.front() / 4) return false;
   const std::vector<std::int64_t> steps = stepsOf(values);
+  constexpr std::int64_t kFarNs = 3'000'000'000;
   const std::int64_t usual = steps.empty() ? 0 : steps[(steps.size() - 1) / 2];
   const auto odd = std::ranges::count_if(steps, [&](auto step) { return step < usual / 2 || step / 2 > usual; });
-  return 4 * odd > std::ssize(steps);
+  return usual >= kFarNs || 4 * odd > std::ssize(steps);
 }
 
 std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>& names) {
