@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/pictures/layouts.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -72,6 +74,28 @@ std::map<std::string, std::string> depthTagsOf(const std::string& color, const s
   const double scale = bopScaleMm(placeOf(depth));
   if (scale == 0) return {};
   return {{"DEPTH_UNIT", print("%.9g", scale)}, {"DEPTH_INVALID", "0"}};
+}
+
+std::optional<double> rateOf(const std::string& color, const std::string& depth) {
+  struct Layout {
+    const char* names;  // as fnmatch() has them
+    double rate;
+  };
+  static constexpr Layout kLayouts[] = {
+      {"*/image_[0-3]/[0-9][0-9][0-9][0-9][0-9][0-9]_1[01].png", 0},
+      {"*/image_[0-3]/[0-9][0-9][0-9][0-9][0-9][0-9].png", 10},
+      {"*/image_0[0-3]/*[0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9].png", 10},
+      {"*/rgb/Camera_[01]/rgb_*", 10},
+      {"*_indoors_*_depth.npy", 0},
+      {"*_outdoor_*_depth.npy", 0},
+      {"*.dpt", 24},
+  };
+  for (const Layout& layout : kLayouts) {
+    for (const std::string* const path : {&color, &depth}) {
+      if (::fnmatch(layout.names, path->c_str(), 0) == 0) return layout.rate;
+    }
+  }
+  return std::nullopt;
 }
 
 bool isNyuDepth(const std::string& path) {

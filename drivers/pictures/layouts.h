@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,14 @@ namespace relievo::pictures {
 //   BOP             scene_camera.json beside rgb/ and depth/: its depth_scale, in mm
 [[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth,
                                                              bool listed);
+
+// The pictures a second of layouts whose names give no times, by the first pictures' paths; 0 for pictures of different
+// scenes; nullopt if nothing is known.
+//   KITTI            image_02/data/0000000005.png, sequences/00/image_2/000000.png, Virtual KITTI's rgb/Camera_0: 10
+//   KITTI 2012, 2015 image_2/000000_10.png: scenes
+//   DIODE            00019_00183_indoors_040_010.png: scenes
+//   Sintel           .dpt: 24
+[[nodiscard]] std::optional<double> rateOf(const std::string& color, const std::string& depth);
 
 // "d-1294886362.665769-3143787185.pgm": NYU's raw depth.
 [[nodiscard]] bool isNyuDepth(const std::string& path);

@@ -213,9 +213,15 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   timing.noteGaps();
   const bool both = !timing.color.empty() && !timing.depth.empty();
   const bool counted = timing.kind != NameKind::Seconds;
-  const bool photos =
-      both && !found.views && timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
-  const double rate = frames_per_s.value_or(photos ? kPhotoRate : both ? kSensorRate : kUsualRate);
+  const auto firstOf = [](const PictureFiles& files, const Series& series) {
+    return series.empty() ? "" : files.folder + files.names[series.front().place];
+  };
+  const auto known =
+      counted ? rateOf(firstOf(found.color, timing.color), firstOf(found.depth, timing.depth)) : std::nullopt;
+  const bool unrelated = timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
+  const bool photos = both && !found.views && (unrelated || known == 0.0);
+  const double usual = known.value_or(0) > 0 ? *known : both ? kSensorRate : kUsualRate;
+  const double rate = frames_per_s.value_or(photos ? kPhotoRate : usual);
   const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
   const double period_ns = counted ? 1e9 / rate : 1;
 

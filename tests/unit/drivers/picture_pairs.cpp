@@ -28,6 +28,7 @@ TEST_F(Pictures, DepthBelongsToTheColourOfItsName) {
     file("k/image_2/" + std::string(name) + "_10.png"), file("k/image_2/" + std::string(name) + "_11.png");
     file("k/disp_occ_0/" + std::string(name) + "_10.png");
   }
+  EXPECT_EQ(read(folder_ / "k").depth.back(), "20000 k/disp_occ_0/000002_10.png") << "scenes";
   const Film kitti = read(folder_ / "k", 10);
   EXPECT_THAT(kitti.depth, ElementsAre("0 k/disp_occ_0/000000_10.png", "200 k/disp_occ_0/000001_10.png",
                                        "400 k/disp_occ_0/000002_10.png"));
@@ -176,6 +177,19 @@ TEST_F(Pictures, SintelsDepthHasItsPicturesNames) {
   const Film film = read(folder_ / "s", 10);
   EXPECT_THAT(film.color, ElementsAre("0 s/frame_0001.png", "100 s/frame_0002.png"));
   EXPECT_THAT(film.depth, ElementsAre("0 s/frame_0001.dpt", "100 s/frame_0002.dpt"));
+}
+
+TEST_F(Pictures, KnownLayoutsHaveARate) {
+  for (const char* name : {"a/scan/00019_00183_indoors_040_010", "a/scan/00019_00183_indoors_100_000"})
+    file(std::string(name) + ".png"), file(std::string(name) + "_depth.npy");
+  EXPECT_EQ(read(folder_ / "a").color.back(), "5000 a/scan/00019_00183_indoors_100_000.png") << "DIODE";
+  for (const char* name : {"000000", "000001"})
+    file("b/image_2/" + std::string(name) + ".png"), file("b/image_3/" + std::string(name) + ".png");
+  EXPECT_EQ(read(folder_ / "b").color.back(), "100 b/image_2/000001.png") << "KITTI";
+  EXPECT_EQ(read(folder_ / "b", 30).color.back(), "33.3333 b/image_2/000001.png") << "the user's word wins";
+  for (const char* name : {"1", "2"})
+    file("c/clean/frame_000" + std::string(name) + ".png"), file("c/depth/frame_000" + std::string(name) + ".dpt");
+  EXPECT_EQ(read(folder_ / "c").color.back(), "41.6667 c/clean/frame_0002.png") << "Sintel";
 }
 
 }  // namespace
