@@ -2,12 +2,12 @@
 #include "drivers/pictures/folder.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <string_view>
 #include <utility>
 
 #include "drivers/pictures/endings.h"
+#include "drivers/pictures/listed.h"
 #include "drivers/pictures/lists.h"
 #include "drivers/pictures/odometry.h"
 #include "drivers/pictures/other_files.h"
@@ -22,9 +22,8 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 4> kAssociations{"associations.txt", "associate.txt", "association.txt",
-                                                        "assoc.txt"};
 constexpr const char* kNoPictures = "there is no picture in this folder; name a folder of pictures or a film";
+constexpr const char* kSeveral = "this folder holds several recordings; name one of the folders in it";
 constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
 constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
@@ -38,6 +37,11 @@ struct Path {
     name = path.substr(folder.size());
   }
 };
+
+// "c" of "a/b/c/".
+std::string folderOf(const std::string& path) {
+  return Path(path.substr(0, path.rfind('/'))).name;
+}
 
 // What is in a folder: pictures, sub-folders and the rest.
 struct Listing {
@@ -88,14 +92,16 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   found.color = {folder, oneKind(color, Role::Color, found.left_out)};
 }
 
-// The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0").
-PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found) {
+// The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0"), or of theirs
+// ("proj_depth/groundtruth/image_02").
+PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found, int levels = 2) {
   auto listing = listingOf(folder).value_or(Listing{});
   if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found)};
   std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
-    auto inner = listingOf(folder + name).value_or(Listing{}).pictures;
-    if (!inner.empty()) return {folder + name + "/", chosen(std::move(inner), role, found)};
+    if (levels == 0) break;
+    auto inner = picturesIn(folder + name + "/", role, found, levels - 1);
+    if (!inner.names.empty()) return inner;
   }
   return {folder, {}};
 }
@@ -123,8 +129,12 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
     const std::string name = bestOf(listing.folders, role);
     return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found);
   };
-  found.color = open(Role::Color);
   found.depth = open(Role::Depth);
+  // The depth of KITTI's image_02 lies in a folder of that name.
+  const std::string view = folderOf(found.depth.folder);
+  const bool of_view =
+      folder + view + "/" != found.depth.folder && std::ranges::find(listing.folders, view) != listing.folders.end();
+  found.color = of_view ? picturesIn(folder + view + "/", Role::Color, found) : open(Role::Color);
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
     found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
@@ -160,74 +170,27 @@ bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPi
   return true;
 }
 
-std::optional<PictureList> readList(const std::string& path, std::size_t pictures) {
-  const auto text = readWholeFile(path, FileSize::Recording, kNoList);
-  const auto list = text ? parsePictureList(*text, pictures) : Result<PictureList>(std::unexpected(text.error()));
-  return list ? std::optional(*list) : std::nullopt;
-}
-
-// Lines in the order of the times in a column. Of two lines with one time the first counts.
-std::map<std::int64_t, std::vector<ListedPicture>> byTime(PictureList list, std::size_t column) {
-  std::map<std::int64_t, std::vector<ListedPicture>> lines;
-  for (auto& line : list.lines) {
-    const std::int64_t time = line[column].value;
-    lines.try_emplace(time, std::move(line));
-  }
-  return lines;
-}
-
-// The time of a pair is that of its colour.
-FoundPictures fromAssociations(const std::string& folder, PictureList list) {
-  const std::size_t color = roleOf(list.lines.front().front().name) == Role::Depth ? 1 : 0;
-  FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
-  found.listed_numbers = list.numbers;
-  found.paired = true;
-  for (auto& [time, line] : byTime(std::move(list), color)) {
-    found.color.names.push_back(std::move(line[color].name));
-    found.depth.names.push_back(std::move(line[1 - color].name));
-    found.color_values.push_back(time);
-  }
-  found.depth_values = found.color_values;
-  return found;
-}
-
-// rgb.txt and depth.txt.
-std::optional<FoundPictures> fromTwoLists(const std::string& folder) {
-  const auto color = readList(folder + "rgb.txt", 1), depth = readList(folder + "depth.txt", 1);
-  if (!color || !depth || color->numbers != depth->numbers) return std::nullopt;
-  FoundPictures found{.color = {folder, {}}, .depth = {folder, {}}};
-  found.listed_numbers = color->numbers;
-  const auto take = [](const PictureList& list, PictureFiles& files, std::vector<std::int64_t>& values) {
-    for (auto& [time, line] : byTime(list, 0)) {
-      files.names.push_back(std::move(line[0].name));
-      values.push_back(time);
-    }
-  };
-  take(*color, found.color, found.color_values);
-  take(*depth, found.depth, found.depth_values);
-  return found;
-}
-
-Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down = true);
+Result<FoundPictures> findInFolder(const std::string& folder, int levels = 2);
 
 // For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results"),
-// or in that of the first of several cameras ("cam_0").
-std::optional<FoundPictures> findBelow(const std::string& folder, Listing listing) {
+// or in that of the first of several cameras ("cam_0"). NotFound, or why one below cannot be read.
+Result<FoundPictures> findBelow(const std::string& folder, Listing listing, int levels) {
   constexpr std::size_t kMostFolders = 16;
-  std::optional<FoundPictures> found;
+  Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
   std::vector<FoundPictures> views;
   bool cameras = true;
-  if (listing.folders.size() > kMostFolders) return std::nullopt;
+  if (listing.folders.size() > kMostFolders) return found;
   std::ranges::sort(listing.folders, naturalLess);
   for (const std::string& name : listing.folders) {
-    auto below = findInFolder(folder + name + "/", false);
+    auto below = findInFolder(folder + name + "/", levels - 1);
+    if (!below && below.error().code == ErrorCode::Unsupported && !found) found = std::unexpected(below.error());
     if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
     if (below->views) {
       views.push_back(*std::move(below));
       continue;
     }
     cameras = cameras && lowerCase(name).starts_with("cam");
-    if (found && !cameras) return std::nullopt;
+    if (found && !cameras) return fail(ErrorCode::Unsupported, kSeveral);
     if (found) found->left_out += below->color.names.size() + below->depth.names.size();
     else found = *std::move(below);
   }
@@ -235,25 +198,23 @@ std::optional<FoundPictures> findBelow(const std::string& folder, Listing listin
   return found;
 }
 
-Result<FoundPictures> findInFolder(const std::string& folder, bool goes_down) {
-  for (const std::string_view name : kAssociations) {
-    if (const auto list = readList(folder + std::string(name), 2)) return fromAssociations(folder, *list);
-  }
-  if (auto found = fromTwoLists(folder)) return *std::move(found);
+Result<FoundPictures> findInFolder(const std::string& folder, int levels) {
+  if (auto listed = findListed(folder)) return *std::move(listed);
   const auto listing = listingOf(folder);
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
   const bool sorted = sortByFolder(folder, *listing, found);
   if (sorted && !found.depth.names.empty() && !found.color.names.empty()) return found;
-  if (auto below =
-          goes_down && listing->pictures.empty() && listing->films == 0 ? findBelow(folder, *listing) : std::nullopt)
-    return *std::move(below);
+  const bool goes_down = levels > 0 && listing->pictures.empty() && listing->films == 0;
+  auto below = goes_down ? findBelow(folder, *listing, levels) : fail(ErrorCode::NotFound, kNoPictures);
+  if (below) return below;
   if (found.depth.names.empty() && sortByViewFolder(folder, *listing, found)) return found;
+  if (sorted && below.error().code == ErrorCode::Unsupported) found.notes.emplace_back(below.error().message);
   if (sorted) return found;
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
   if (listing->pictures.empty() && listing->way != nullptr) return fail(ErrorCode::Unsupported, listing->way);
-  if (listing->pictures.empty()) return fail(ErrorCode::NotFound, kNoPictures);
+  if (listing->pictures.empty()) return below;
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   if (found.depth.names.empty()) takeOdometryTimes(found);
   return found;

@@ -179,6 +179,35 @@ TEST_F(Pictures, SintelsDepthHasItsPicturesNames) {
   EXPECT_THAT(film.depth, ElementsAre("0 s/frame_0001.dpt", "100 s/frame_0002.dpt"));
 }
 
+// KITTI, whose depth lies under its camera's name; Virtual KITTI; Hypersim's numbers.
+TEST_F(Pictures, NestedLayoutsAreFoundFromAbove) {
+  for (const char* name : {"5", "6"}) {
+    for (const char* camera : {"image_00", "image_02", "image_03"}) {
+      file("k/drive/" + std::string(camera) + "/data/000000000" + name + ".png");
+      for (const char* kind : {"groundtruth", "velodyne_raw"})
+        file("k/drive/proj_depth/" + std::string(kind) + "/" + camera + "/000000000" + name + ".png");
+    }
+    std::filesystem::remove_all(folder_ / "k/drive/proj_depth/groundtruth/image_00");
+  }
+  EXPECT_THAT(read(folder_ / "k").color,
+              ElementsAre("0 k/drive/image_02/data/0000000005.png", "100 k/drive/image_02/data/0000000006.png"));
+  EXPECT_THAT(read(folder_ / "k/drive").depth,
+              ElementsAre("0 k/drive/proj_depth/groundtruth/image_02/0000000005.png",
+                          "100 k/drive/proj_depth/groundtruth/image_02/0000000006.png"));
+  file("v/clone/frames/rgb/Camera_0/rgb_00000.jpg"), file("v/clone/frames/depth/Camera_0/depth_00000.png");
+  EXPECT_EQ(read(folder_ / "v").color.size(), 1U);
+  file("v/fog/frames/rgb/Camera_0/rgb_00000.jpg"), file("v/fog/frames/depth/Camera_0/depth_00000.png");
+  const Film scenes = read(folder_ / "v");
+  ASSERT_TRUE(scenes.error);
+  EXPECT_THAT(scenes.error->message, HasSubstr("holds several recordings"));
+  file("h/images/scene_cam_00_geometry_hdf5/frame.0000.depth_meters.hdf5");
+  const Film numbers = read(folder_ / "h");
+  ASSERT_TRUE(numbers.error);
+  EXPECT_THAT(numbers.error->message, HasSubstr("Hypersim"));
+  file("h/images/scene_cam_00_final_preview/frame.0000.color.jpg");
+  EXPECT_THAT(read(folder_ / "h").notes, Contains(HasSubstr("Hypersim")));
+}
+
 TEST_F(Pictures, KnownLayoutsHaveARate) {
   for (const char* name : {"a/scan/00019_00183_indoors_040_010", "a/scan/00019_00183_indoors_100_000"})
     file(std::string(name) + ".png"), file(std::string(name) + "_depth.npy");
