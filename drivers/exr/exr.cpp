@@ -242,6 +242,15 @@ bool beginsLikeExr(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
+// Nuke's own depth is 1/z, 0 for nothing (the manual of its node DepthToPosition); what another renderer has made and
+// Nuke passes on is z, which few scenes have below 1.
+bool isNukesInverse(const Imf::Header& header, std::span<const std::uint8_t> file) {
+  if (header.find("nuke/version") == header.end()) return false;
+  const auto depth = readDepth(file);
+  return depth && std::all_of(depth->samples.begin(), depth->samples.end(),
+                              [](float value) { return !(value < 0 || value > 1); });
+}
+
 std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
   if (!exr::fitsItsHeaders(*file)) return {};
   StreamInfo depth{.codec = kExr.codec, .tags = {{"TITLE", "depth"}}};
@@ -251,6 +260,7 @@ std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
     const Choice named = choosePart(parts, namedDepth);
     if (named.names.empty() || chooseColor(parts).names.size() != 3) return {};
     if (says(kCentimetres, named.names[0])) depth.tags["DEPTH_UNIT"] = "10";
+    else if (isNukesInverse(parts.header(named.part), *file)) depth.tags["DEPTH_LAW"] = "inverse";
   } catch (const std::exception&) {
     return {};
   }

@@ -75,12 +75,13 @@ std::string box(const Window& w) {
 }
 
 // Scanlines without compression ("Technical Introduction to OpenEXR", file layout).
-std::string exr(const std::vector<Channel>& channels, const Window& data = {}, const Window& display = {}) {
+std::string exr(const std::vector<Channel>& channels, const Window& data = {}, const Window& display = {},
+                const std::string& more_attributes = "") {
   std::string list;
   for (const Channel& c : channels) {
     list += c.name + '\0' + number(static_cast<std::uint32_t>(c.type)) + std::string(4, '\0') + number(1u) + number(1u);
   }
-  std::string file = "\x76\x2f\x31\x01" + number(2u);
+  std::string file = "\x76\x2f\x31\x01" + number(2u) + more_attributes;
   file += attribute("channels", "chlist", list + '\0') + attribute("compression", "compression", std::string(1, '\0'));
   file += attribute("dataWindow", "box2i", box(data)) + attribute("displayWindow", "box2i", box(display));
   file += attribute("lineOrder", "lineOrder", std::string(1, '\0'));
@@ -272,6 +273,24 @@ TEST(Exr, UnrealsWorldDepthIsInCentimetres) {
     if (film.info.packing == Packing::DepthAlone) continue;
     EXPECT_NEAR(test::sampleAt(film.pair.color, 0, 25, 3) / 255.0, 0.7354, 0.002);
   }
+}
+
+TEST(Exr, NukesDepthIsInverse) {
+  const test::TemporaryFolder folder;
+  const auto inverse = [](int c, int r) { return metresAt(c, r) == 0 ? 0 : 1 / static_cast<float>(metresAt(c, r)); };
+  const auto film = [&](const std::function<float(int, int)>& depth, const std::string& by) {
+    write(folder / "a.exr", exr({{"B", Type::Half, flat},
+                                 {"G", Type::Half, flat},
+                                 {"R", Type::Half, gradient},
+                                 {"depth.Z", Type::Float, depth}},
+                                {}, {}, attribute(by, "string", "13.0v1")));
+    return test::openFilm({.url = folder / "a.exr"});
+  };
+  const test::OpenedFilm own = film(inverse, "nuke/version");
+  EXPECT_TRUE(std::isnan(own.heightAt(0, 0)));
+  EXPECT_NEAR(own.distanceAt(9, 20) / own.distanceAt(30, 2), metresAt(9, 20) / metresAt(30, 2), 0.002);
+  expectDepth(film(depthWith(0), "nuke/version"));
+  EXPECT_GT(film(inverse, "version").distanceAt(9, 20), film(inverse, "version").distanceAt(30, 2)) << "not Nuke's";
 }
 
 TEST(Exr, ColoursAloneAreAPictureWithoutDepth) {
