@@ -22,7 +22,7 @@ struct Layout {
 constexpr std::array<std::string_view, kMostDepths> kDepths{"disp",      "disparity",      "disp_left",
                                                             "left_disp", "disparity_left", "left_disparity",
                                                             "depth",     "depth_left",     "left_depth"};
-constexpr std::array<Layout, 12> kLayouts{{
+constexpr std::array<Layout, 14> kLayouts{{
     {"im2", "im6", {"disp2"}, "im3"},
     {"view1", "view5", {"disp1"}, "view2"},
     {"im0", "im1", {"disp0", "disp0gt", "depth0"}, "im2"},
@@ -32,6 +32,8 @@ constexpr std::array<Layout, 12> kLayouts{{
     {"imgl", "imgr", {"displ", "disp", "depthl", "depth"}, ""},
     {"cam0", "cam1", {}, "cam2", Named::Folders},
     {"cam_0", "cam_1", {}, "cam_2", Named::Folders},
+    {"image_left", "image_right", {}, "", Named::Folders},
+    {"frame_left", "frame_right", {}, "", Named::Folders},
     {"image_00", "image_01", {}, "", Named::Folders},
     {"image_02", "image_03", {}, "", Named::Folders},
     {"image_2", "image_3", {}, "", Named::Folders},

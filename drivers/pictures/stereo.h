@@ -20,10 +20,11 @@ enum class Named : bool { Pictures, Folders };
 //   im2, im6, disp2                  Middlebury 2001 and 2003; the other views are left out
 //   view1, view5, disp1              Middlebury 2005 and 2006, likewise
 //   left, right, disp or depth       and other words for them
+//   image_left, image_right          TartanAir; Spring's frame_left, frame_right
 //   image_02, image_03               KITTI, else its gray image_00 and image_01
 //   cam0, cam1                       EuRoC and others, unless there is a third
-// The last two are folders alone: pictures of such names are a series. Of two files of disparities the one with numbers
-// is taken: a PFM rather than a PNG. nullopt if these are no two views.
+// The last three are folders alone: pictures of such names are a series. Of two files of disparities the one with
+// numbers is taken: a PFM rather than a PNG. nullopt if these are no two views.
 [[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named);
 
 }  // namespace relievo::pictures

@@ -221,5 +221,12 @@ TEST_F(Pictures, KnownLayoutsHaveARate) {
   EXPECT_EQ(read(folder_ / "c").color.back(), "41.6667 c/clean/frame_0002.png") << "Sintel";
 }
 
+TEST_F(Pictures, FoldersOfTwoViewsAreBoth) {
+  for (const char* view : {"left", "right"})
+    file("s/frame_" + std::string(view) + "/0001.png"), file("t/image_" + std::string(view) + "/0001.png");
+  EXPECT_EQ(read(folder_ / "s").depth.back(), "0 s/frame_right/0001.png") << "Spring";
+  EXPECT_EQ(read(folder_ / "t").depth.back(), "0 t/image_right/0001.png") << "TartanAir";
+}
+
 }  // namespace
 }  // namespace relievo
