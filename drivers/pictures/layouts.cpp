@@ -69,6 +69,8 @@ std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
 }  // namespace
 
 std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth, bool listed) {
+  if (::fnmatch("*_sync_groundtruth_depth_*_image_0[23].png", depth.c_str(), 0) == 0)
+    return {{"DEPTH_UNIT", "3.90625"}, {"DEPTH_INVALID", "0"}};
   if (folderIn(depth) != "depth" || folderIn(color) != "rgb" || endingOf(depth) != "png") return {};
   if (listed || isSeconds(depth)) return {{"DEPTH_UNIT", "0.2"}, {"DEPTH_INVALID", "0"}};
   const double scale = bopScaleMm(placeOf(depth));
@@ -86,6 +88,7 @@ std::optional<double> rateOf(const std::string& color, const std::string& depth)
       {"*/image_[0-3]/[0-9][0-9][0-9][0-9][0-9][0-9].png", 10},
       {"*/image_0[0-3]/*[0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9][0-9].png", 10},
       {"*/rgb/Camera_[01]/rgb_*", 10},
+      {"*_sync_image_*_image_0[23].png", 0},
       {"*_indoors_*_depth.npy", 0},
       {"*_outdoor_*_depth.npy", 0},
       {"*.dpt", 24},

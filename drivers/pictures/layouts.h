@@ -12,6 +12,7 @@ namespace relievo::pictures {
 
 // Tags of the depth's meaning, by the first pictures' paths.
 //   TUM, ICL-NUIM   rgb/ and depth/ with seconds in names or a list (`listed`), PNG: 5000 codes a metre, 0 is a hole
+//   KITTI           .._sync_groundtruth_depth_0000000005_image_02.png, its selection of pictures: 256 codes a metre
 //   BOP             scene_camera.json beside rgb/ and depth/: its depth_scale, in mm
 [[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth,
                                                              bool listed);
@@ -20,6 +21,7 @@ namespace relievo::pictures {
 // scenes; nullopt if nothing is known.
 //   KITTI            image_02/data/0000000005.png, sequences/00/image_2/000000.png, Virtual KITTI's rgb/Camera_0: 10
 //   KITTI 2012, 2015 image_2/000000_10.png: scenes
+//                    .._sync_image_0000000005_image_02.png: its selection of depth
 //   DIODE            00019_00183_indoors_040_010.png: scenes
 //   Sintel           .dpt: 24
 [[nodiscard]] std::optional<double> rateOf(const std::string& color, const std::string& depth);

@@ -221,6 +221,17 @@ TEST_F(Pictures, KnownLayoutsHaveARate) {
   EXPECT_EQ(read(folder_ / "c").color.back(), "41.6667 c/clean/frame_0002.png") << "Sintel";
 }
 
+TEST_F(Pictures, KittisSelectionIsPhotosWithTheirUnit) {
+  for (const char* drive : {"2011_09_26_drive_0002_sync", "2011_09_28_drive_0037_sync"}) {
+    file("k/image/" + std::string(drive) + "_image_0000000005_image_02.png");
+    file("k/groundtruth_depth/" + std::string(drive) + "_groundtruth_depth_0000000005_image_02.png");
+  }
+  const Film film = read(folder_ / "k");
+  EXPECT_EQ(film.depth.back(),
+            "5000 k/groundtruth_depth/2011_09_28_drive_0037_sync_groundtruth_depth_0000000005_image_02.png");
+  EXPECT_EQ(film.streams.back().tags.at("DEPTH_UNIT"), "3.90625");
+}
+
 TEST_F(Pictures, FoldersOfTwoViewsAreBoth) {
   for (const char* view : {"left", "right"})
     file("s/frame_" + std::string(view) + "/0001.png"), file("t/image_" + std::string(view) + "/0001.png");
