@@ -217,6 +217,7 @@ Result<FoundPictures> findInFolder(const std::string& folder, int levels) {
   if (listing->pictures.empty()) return below;
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   if (found.depth.names.empty()) takeOdometryTimes(found);
+  if (found.depth.names.empty() && listing->way != nullptr) found.notes.emplace_back(listing->way);
   return found;
 }
 

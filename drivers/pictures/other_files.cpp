@@ -34,11 +34,14 @@ constexpr const char* kHypersim =
     "h5py, numpy; y, x = numpy.mgrid[-383.5:384, -511.5:512] / 886.81; [numpy.save(f[:-5], "
     "h5py.File(f)[\"dataset\"][:] "
     "/ numpy.sqrt(1 + x * x + y * y)) for f in glob.glob(\"FOLDER/*.depth_meters.hdf5\")]'";
+constexpr const char* kRecord3d =
+    "this folder holds Record3D's depth in Apple's LZFSE, which is not read; let the app export the film as MP4, or as "
+    "EXR and RGB";
 struct Way {
   const char *ending, *line;
 };
-constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},   {"yuv", kRawFilms},
-                         {"npz", kArchives}, {"hdf5", kHdf5},    {"h5", kHdf5}, {"mat", kMatlab}};
+constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},    {"yuv", kRawFilms},
+                         {"npz", kArchives}, {"hdf5", kHdf5},    {"h5", kHdf5}, {"mat", kMatlab}, {"depth", kRecord3d}};
 
 }  // namespace
 

@@ -232,6 +232,12 @@ TEST_F(Pictures, KittisSelectionIsPhotosWithTheirUnit) {
   EXPECT_EQ(film.streams.back().tags.at("DEPTH_UNIT"), "3.90625");
 }
 
+TEST_F(Pictures, DepthThatIsNoPictureIsToldBesideColour) {
+  file("r/rgbd/0.jpg"), file("r/rgbd/0.depth"), file("n/0.jpg"), file("n/0.npz");
+  EXPECT_THAT(read(folder_ / "r/rgbd").notes, Contains(HasSubstr("LZFSE")));
+  EXPECT_THAT(read(folder_ / "n").notes, Contains(HasSubstr("archives of arrays")));
+}
+
 TEST_F(Pictures, FoldersOfTwoViewsAreBoth) {
   for (const char* view : {"left", "right"})
     file("s/frame_" + std::string(view) + "/0001.png"), file("t/image_" + std::string(view) + "/0001.png");
