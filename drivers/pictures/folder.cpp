@@ -93,13 +93,14 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
 }
 
 // The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0"), or of theirs
-// ("proj_depth/groundtruth/image_02").
-PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found, int levels = 2) {
+// ("disparity/TRAIN/A/0000/left").
+PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found, int levels = 4) {
+  constexpr std::size_t kMostFolders = 16;
   auto listing = listingOf(folder).value_or(Listing{});
   if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found)};
   std::ranges::sort(listing.folders, naturalLess);
+  listing.folders.resize(std::min(listing.folders.size(), levels > 0 ? kMostFolders : 0));
   for (const std::string& name : listing.folders) {
-    if (levels == 0) break;
     auto inner = picturesIn(folder + name + "/", role, found, levels - 1);
     if (!inner.names.empty()) return inner;
   }
@@ -124,17 +125,34 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
   return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
 }
 
+// The colour of depth in a deeper folder: that of the depth's name (KITTI's "image_02"), or the first one with the same
+// folders in it ("frames/a/left" for "disparity/a/left"), of colour by its name if there is one. Empty if there is
+// none.
+std::string colorInside(const std::string& folder, const Listing& listing, const std::string& depth) {
+  if (!depth.starts_with(folder)) return "";
+  const std::size_t deeper = depth.find('/', folder.size()) + 1;
+  if (deeper == depth.size()) return "";
+  if (std::ranges::find(listing.folders, folderOf(depth)) != listing.folders.end()) return folderOf(depth);
+  std::vector<std::string> names = listing.folders;
+  std::ranges::sort(names, naturalLess);
+  for (const Role role : {Role::Color, Role::Unsaid}) {
+    for (const std::string& name : names) {
+      const std::string inner = name + "/" + depth.substr(deeper);
+      const bool of_role = roleOf(name) == role && !isPainted(name);
+      if (of_role && !listingOf(folder + inner).value_or(Listing{}).pictures.empty()) return inner;
+    }
+  }
+  return "";
+}
+
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
     return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found);
   };
   found.depth = open(Role::Depth);
-  // The depth of KITTI's image_02 lies in a folder of that name.
-  const std::string view = folderOf(found.depth.folder);
-  const bool of_view =
-      folder + view + "/" != found.depth.folder && std::ranges::find(listing.folders, view) != listing.folders.end();
-  found.color = of_view ? picturesIn(folder + view + "/", Role::Color, found) : open(Role::Color);
+  const std::string view = colorInside(folder, listing, found.depth.folder);
+  found.color = view.empty() ? open(Role::Color) : picturesIn(folder + view + "/", Role::Color, found);
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
     found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)

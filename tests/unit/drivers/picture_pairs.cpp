@@ -221,6 +221,22 @@ TEST_F(Pictures, KnownLayoutsHaveARate) {
   EXPECT_EQ(read(folder_ / "c").color.back(), "41.6667 c/clean/frame_0002.png") << "Sintel";
 }
 
+// Monkaa, whose scenes lie in a folder of pictures and one of disparities, and FlyingThings.
+TEST_F(Pictures, DepthInADeeperFolderBelongsToTheColourInTheSameOne) {
+  for (const char* view : {"left", "right"}) {
+    for (const char* scene : {"a_rain/", "b_rain/"})
+      file("m/frames/" + std::string(scene) + view + "/0006.png"),
+          file("m/disparity/" + std::string(scene) + view + "/0006.pfm");
+    for (const char* kind : {"frames_cleanpass", "frames_finalpass", "optical_flow"})
+      file("f/" + std::string(kind) + "/TRAIN/A/0000/" + view + "/0006.png");
+    file("f/disparity/TRAIN/A/0000/" + std::string(view) + "/0006.pfm");
+  }
+  EXPECT_THAT(read(folder_ / "m").color, ElementsAre("0 m/frames/a_rain/left/0006.png"));
+  EXPECT_THAT(read(folder_ / "m").depth, ElementsAre("0 m/disparity/a_rain/left/0006.pfm"));
+  EXPECT_THAT(read(folder_ / "f").color, ElementsAre("0 f/frames_cleanpass/TRAIN/A/0000/left/0006.png"));
+  EXPECT_THAT(read(folder_ / "f").depth, ElementsAre("0 f/disparity/TRAIN/A/0000/left/0006.pfm"));
+}
+
 TEST_F(Pictures, KittisSelectionIsPhotosWithTheirUnit) {
   for (const char* drive : {"2011_09_26_drive_0002_sync", "2011_09_28_drive_0037_sync"}) {
     file("k/image/" + std::string(drive) + "_image_0000000005_image_02.png");
