@@ -137,7 +137,7 @@ std::string colorInside(const std::string& folder, const Listing& listing, const
   std::ranges::sort(names, naturalLess);
   for (const Role role : {Role::Color, Role::Unsaid}) {
     for (const std::string& name : names) {
-      const std::string inner = name + "/" + depth.substr(deeper);
+      const std::string inner = name + "/" + depth.substr(deeper, depth.size() - deeper - 1);
       const bool of_role = roleOf(name) == role && !isPainted(name);
       if (of_role && !listingOf(folder + inner).value_or(Listing{}).pictures.empty()) return inner;
     }

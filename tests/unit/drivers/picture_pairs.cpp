@@ -219,6 +219,11 @@ TEST_F(Pictures, KnownLayoutsHaveARate) {
   for (const char* name : {"1", "2"})
     file("c/clean/frame_000" + std::string(name) + ".png"), file("c/depth/frame_000" + std::string(name) + ".dpt");
   EXPECT_EQ(read(folder_ / "c").color.back(), "41.6667 c/clean/frame_0002.png") << "Sintel";
+  for (const char* name : {"00000", "00001"}) {
+    file("v/frames/rgb/Camera_0/rgb_" + std::string(name) + ".jpg");
+    file("v/frames/depth/Camera_0/depth_" + std::string(name) + ".png");
+  }
+  EXPECT_EQ(read(folder_ / "v/frames").color.back(), "100 v/frames/rgb/Camera_0/rgb_00001.jpg") << "Virtual KITTI";
 }
 
 // Monkaa, whose scenes lie in a folder of pictures and one of disparities, and FlyingThings.
