@@ -55,13 +55,13 @@ std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std:
 
 std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
-  for (const std::string_view ending : {"pfm", "dpt", "png"}) {
+  for (const std::string_view ending : {"pfm", "dpt", "npy", "png"}) {
     const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
     const auto isColor = [&](const std::string& name) {
-      return isPhoto(name) || (ending == "dpt" && endingOf(name) == "png");
+      return isPhoto(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));
     };
     const auto photo = std::ranges::find_if(
-        names, [&](const std::string& name) { return isColor(name) && all.contains(besideOf(name)); });
+        names, [&](const std::string& name) { return all.contains(besideOf(name)) && isColor(name); });
     if (photo == names.end() || (ending == "png" && !isGray16Png(folder + besideOf(*photo)))) continue;
     const auto depth = std::ranges::partition(names, [&](const auto& name) { return endingOf(name) != ending; });
     std::vector<std::string> taken(depth.begin(), depth.end());

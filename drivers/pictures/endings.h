@@ -19,8 +19,9 @@ namespace relievo::pictures {
 // Keeps the names with the most frequent ending, or, of depth with several such, the preferred one; counts the others.
 [[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out);
 
-// Takes depth out of `names` where photos and their depth differ in the ending alone: "1.jpg" beside a gray "1.png" of
-// 16 bits, whose head is read, or "1.pfm"; "1.png" beside "1.dpt" (Sintel). Empty if there is none.
+// Takes depth out of `names` where colour and its depth differ in the ending alone: "1.jpg" or a "1.png" that is not
+// gray of 16 bits (heads are read) beside "1.pfm", "1.dpt" or "1.npy"; "1.jpg" beside a gray "1.png" of 16 bits. Empty
+// if there is none.
 [[nodiscard]] std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

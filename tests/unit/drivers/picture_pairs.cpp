@@ -171,6 +171,15 @@ TEST_F(Pictures, DatesInOneNumberArePhotos) {
   EXPECT_EQ(read(folder_ / "p").color.back(), "10000 p/images/20240131124000.jpg") << "on one day";
 }
 
+TEST_F(Pictures, ArraysHaveTheirPicturesNames) {
+  const std::string gray16 = std::string("\x89PNG\r\n\x1a\n") + std::string(16, '\0') + std::string("\x10\0\0\0\0", 5);
+  file("j/1.jpg"), file("j/1.npy"), file("p/1.png"), file("p/1.npy"), file("g/1.png", gray16), file("g/1.pfm");
+  EXPECT_THAT(read(folder_ / "j").depth, ElementsAre("0 j/1.npy"));
+  EXPECT_THAT(read(folder_ / "p").color, ElementsAre("0 p/1.png"));
+  EXPECT_THAT(read(folder_ / "p").depth, ElementsAre("0 p/1.npy"));
+  EXPECT_TRUE(read(folder_ / "g").depth.empty()) << "depth twice";
+}
+
 TEST_F(Pictures, SintelsDepthHasItsPicturesNames) {
   for (const char* name : {"frame_0001", "frame_0002"})
     file("s/" + std::string(name) + ".png"), file("s/" + std::string(name) + ".dpt");
