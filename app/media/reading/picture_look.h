@@ -62,7 +62,7 @@ struct FoundPacking {
   DepthCode code = DepthCode::Luma;
   GrayFrom gray = GrayFrom::Luma;
   std::string why;      // one line
-  bool parted = false;  // a part of the half that is not depth looks like depth too: a third picture
+  bool parted = false;  // a part of one half looks like another kind of picture: a third one
 };
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
 // hues. Nullopt if the halves do not differ that clearly.

@@ -324,5 +324,22 @@ TEST(Recordings, AGifOfAFewRowsOrColumnsIsAFilmWithoutDepth) {
   }
 }
 
+// Metavido: hues above a mask of persons in red, with codes in blue at its corner; the colour right of both.
+TEST(Recordings, AMaskBelowTheHuesIsTold) {
+  const TemporaryFolder folder;
+  for (const bool mask : {true, false}) {
+    const Half depth{[mask](int c, int r) {
+      if (!mask || 2 * r < kSceneRows) return test::hueColor(0.2 + 0.5 * c / kSceneCols);
+      const bool person = std::abs(c - kSceneCols / 2) < 30, code = c < 24 && (c / 8 + r / 8) % 2 == 0;
+      return std::array{person ? 1.0 : 0.0, 0.0, code ? 1.0 : 0.0};
+    }};
+    makeHalves(folder / "film.mp4", true, depth, kPhoto);
+    const FilmInfo info = open({.url = folder / "film.mp4"}).info;
+    EXPECT_EQ(info.packing, Packing::SideBySideDepthFirst);
+    EXPECT_EQ(testing::Matches(Contains(HasSubstr("Metavido")))(info.reading.why), mask);
+    EXPECT_EQ(testing::Matches(Contains(HasSubstr("three pictures")))(info.notes), mask);
+  }
+}
+
 }  // namespace
 }  // namespace relievo
