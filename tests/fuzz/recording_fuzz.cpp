@@ -31,7 +31,9 @@ void check(const RecordingPlace& place) {
     require(place.settings.empty(), "settings only of a known kind");
     return;
   }
-  require(findKind(place.kind->name) == place.kind, "a kind that --as has");
+  const KnownKind* const listed = findKind(place.kind->name);
+  require(place.own ? place.own.get() == place.kind && listed != nullptr : listed == place.kind,
+          "a kind that --as has, or one of its own by that name");
   require(!place.why.empty(), "a kind is explained");
   std::string settings;
   for (const auto& [key, value] : place.settings) settings += (settings.empty() ? "" : ",") + key + "=" + value;
@@ -47,9 +49,12 @@ class Scratch {
     if (::mkdtemp(pattern.data()) == nullptr) std::abort();
     root_ = pattern.data();
     fs::create_directories(folder());
+    fs::create_directories(meta());
     std::atexit([] { fs::remove_all(root_); });
   }
   [[nodiscard]] static fs::path folder() { return fs::path(root_) / "a" / "b"; }
+  // Of a LeRobot data set whose camera is "b".
+  [[nodiscard]] static fs::path meta() { return fs::path(root_) / "a" / "meta"; }
 
  private:
   static inline std::string root_;
@@ -78,6 +83,7 @@ void fuzz(std::string_view text) {
   if (which == 'j') beside.replace_extension(".json");
   if (which == 'c') beside = Scratch::folder().parent_path() / "camera.json";
   if (which == 's') beside = Scratch::folder() / "scene_camera.json";
+  if (which == 'l') beside = Scratch::meta() / "info.json";
   std::ofstream(beside, std::ios::binary) << text;
   check(lookAtPlace(film, ""));
   check(lookAtPlace("", film));
