@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/media/reading/depth_reading.h"
+#include "app/media/reading/known_kind.h"
 #include "app/media/reading/picture_look.h"
 #include "app/media/reading/stereo/stereo_pair.h"
 #include "app/scene/film_box.h"
@@ -210,7 +211,8 @@ std::string nearEndLine(const DepthCalibration& calibration, double nearer_below
             near_high ? high : low, view, near_high ? low : high, near_high ? "near-low" : "near-high");
   const bool may_be_mm = calibration.code == DepthCode::Luma && calibration.bits >= 12 && calibration.bits < 16;
   return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "") +
-         (may_be_mm ? "; if a code is 1 mm: --as mm" : "");
+         (may_be_mm ? "; if a code is 1 mm: --as mm" : "") +
+         (may_be_mm && calibration.bits == EvenSteps::kBits ? "; if LeRobot wrote it: --as lerobot" : "");
 }
 
 std::vector<std::string> doubtsOf(const Frame& depth, const DepthCalibration& calibration, const Frame* color,

@@ -280,8 +280,10 @@ TEST_F(LeRobotFile, BelongsToItsOwnCamerasAloneAndMustMakeSense) {
                 Not(Contains(HasSubstr("info.json"))))
         << info;
   }
-  // By the kind's name, wherever the film lies.
-  const test::OpenedFilm named = test::openFilm({.url = makeFilm(kUsual, "elsewhere"), .as = findKind("lerobot")});
+  // By the kind's name, wherever the film lies; that there is one is told.
+  const std::string elsewhere = makeFilm(kUsual, "elsewhere");
+  EXPECT_THAT(test::openFilm({.url = elsewhere}).info.reading.doubts, Contains(HasSubstr("--as lerobot")));
+  const test::OpenedFilm named = test::openFilm({.url = elsewhere, .as = findKind("lerobot")});
   EXPECT_NEAR(named.distanceAt(80, 54), distanceMm(80, 54), 4);
 }
 
