@@ -30,11 +30,13 @@ std::vector<Letter> lettersOf(std::string_view text) {
   return letters;
 }
 
-// A dot before a figure may stand in a number.
-bool mayBreakAfter(const Letter& letter, const Letter& next) noexcept {
-  const bool figure = next.bytes[0] >= '0' && next.bytes[0] <= '9';
+// A dot before a figure may stand in a number, one behind a space begins a word (".npy").
+bool mayBreakAfter(const std::vector<Letter>& letters, std::size_t at) noexcept {
+  const Letter& letter = letters[at];
+  const char next = letters[at + 1].bytes[0];
+  const bool in_word = at > 0 && letters[at - 1].bytes != " " && !(next >= '0' && next <= '9');
   return letter.cells == 2 || letter.bytes == " " || letter.bytes == "-" || letter.bytes == "_" ||
-         (letter.bytes == "." && !figure);
+         (letter.bytes == "." && in_word);
 }
 
 // How many letters from `first` on fill a line.
@@ -43,7 +45,7 @@ std::size_t lineFrom(const std::vector<Letter>& letters, std::size_t first, int 
   int used = 0;
   while (end < letters.size() && used + letters[end].cells <= cells) {
     used += letters[end].cells;
-    if (end + 1 < letters.size() && mayBreakAfter(letters[end], letters[end + 1]) && 3 * used > cells) good = end + 1;
+    if (end + 1 < letters.size() && mayBreakAfter(letters, end) && 3 * used > cells) good = end + 1;
     ++end;
   }
   return end < letters.size() && good > first ? good - first : end - first;

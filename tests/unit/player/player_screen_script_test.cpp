@@ -40,6 +40,7 @@ TEST(Fold, WideLettersTakeTwoCells) {
 
 TEST(Fold, ANumberIsNotBroken) {
   EXPECT_THAT(folded("steps of 4.54 mm", 11, 2), ElementsAre("steps of ", "4.54 mm"));
+  EXPECT_THAT(folded("read from .npy", 11, 2), ElementsAre("read from ", ".npy"));
   EXPECT_THAT(folded("one.film.mkv", 9, 2), ElementsAre("one.film.", "mkv"));
 }
 
