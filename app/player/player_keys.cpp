@@ -95,7 +95,7 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   }
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse, clicks);
   if (mouse.notches != 0) {
-    const bool is_volume = screen_.isOverBar(mouse) || !config_.mouse_touches;
+    const bool is_volume = screen_.isOverBar(mouse) || !config_.mouse_touches || !film_.info().has_depth;
     if (is_volume) mouse_.turn(mouse.notches);
     return is_volume;
   }
@@ -140,7 +140,8 @@ void Player::nameKeys() {
 
 ScreenRows Player::keyRows() const {
   ScreenRows rows;
-  if (config_.has_mouse) rows = mouseRows(state_ == PlayerState::Browsing, config_.mouse_touches);
+  const bool touches = config_.mouse_touches && film_.info().has_depth;
+  if (config_.has_mouse) rows = mouseRows(state_ == PlayerState::Browsing, touches);
   if (has_pad_) std::ranges::move(config_.keys.rowsIn(state_, KeyBoard::Pad), std::back_inserter(rows));
   std::ranges::move(config_.keys.rowsIn(state_, config_.held), std::back_inserter(rows));
   return rows;

@@ -103,6 +103,22 @@ TEST_F(PlayerWindow, AWordOfItsBarIsClicked) {
   EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
 }
 
+TEST_F(PlayerWindow, OfAFilmWithoutDepthTheWheelIsTheVolumeEverywhere) {
+  makeClip(folder_ / "film.mkv", {{.pix_fmt = "yuv420p", .frames = 60, .sample = [](int component, int, int, int) {
+                                     return component == 0 ? 180U : 128U;
+                                   }}});
+  const auto player = play({"--haptic", "pointer", "--audio", "null", "--control", folder_ / "control"});
+  ControlClient control(folder_ / "control");
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->moveMouse(place_.x + 160, place_.y + 60);
+  std::this_thread::sleep_for(300ms);
+  screen_->button(5, true);
+  screen_->button(5, false);
+  EXPECT_TRUE(until([&] { return control.ask("status")["volume"] == 95; })) << control.ask("status");
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+}
+
 // A notch of the wheel, whose event names no button, does not end the press.
 TEST_F(PlayerWindow, AWheelThatTurnsDuringAClickDoesNotClickAgain) {
   const auto player = play({"--haptic", "none"});
