@@ -42,6 +42,11 @@ constexpr Label kOnKeyboards[] = {
     {KEY_QUESTION, "?"},     {KEY_NEXT, ">"},
     {KEY_PREVIOUS, "<"},
 };
+// These need another key outside the USA.
+constexpr Label kSigns[] = {
+    {KEY_1 | kWithShift, "!"}, {KEY_2 | kWithShift, "@"}, {KEY_4 | kWithShift, "$"}, {KEY_5 | kWithShift, "%"},
+    {KEY_6 | kWithShift, "^"}, {KEY_7 | kWithShift, "&"}, {KEY_9 | kWithShift, "("}, {KEY_0 | kWithShift, ")"},
+};
 constexpr Label kOnRemotes[] = {
     {KEY_OK, "OK"},
     {KEY_SELECT, "OK"},
@@ -129,6 +134,7 @@ std::string remoteLabel(std::uint16_t code) {
 }  // namespace
 
 std::string keyboardLabel(std::uint16_t code) {
+  if (const auto sign = find(kSigns, code); !sign.empty()) return std::string(sign);
   if (const std::uint16_t alone = withoutShiftAndCtrl(code); alone != code) {
     return ((code & kWithCtrl) != 0 ? "Ctrl+" : "Shift+") + keyboardLabel(alone);
   }

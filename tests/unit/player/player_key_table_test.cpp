@@ -185,6 +185,7 @@ TEST(KeyTable, NamesTheKeyOfACommandAsTheViewerReadsIt) {
   EXPECT_EQ(table.keyFor(PlayerVerb::Layout, State::Playing, KeyBoard::Remote), "Blue or 3D");
   EXPECT_EQ(table.keyFor(PlayerVerb::Screenshot, State::Playing, KeyBoard::Remote), "");
   EXPECT_EQ(table.keyFor(PlayerVerb::Keys, State::Playing, KeyBoard::Pad), "Pad Start");
+  EXPECT_EQ(keyLabel(KEY_UNKNOWN, KeyBoard::Keyboard), "") << "such as a letter with an accent";
 }
 
 // Keys are named as they are labelled on the keyboard or remote that the viewer uses.
@@ -204,6 +205,7 @@ TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 0.1 s earlier"), "z");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "the scene 2 mm away from you"), "F4");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "sound 0.1 s earlier"), "Ctrl+-");
+  EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "the next chapter"), "Page Up, @");
   EXPECT_EQ(keyOf(State::Playing, KeyBoard::Keyboard, "subtitles 10 % larger"), "Shift+g");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "the last film"), "End");
   EXPECT_EQ(keyOf(State::Browsing, KeyBoard::Keyboard, "play the selected film"), "Space, Right, Enter");
