@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does from film to film: opens, leaves, ends, and skips what cannot be played.
+#include <algorithm>
+#include <array>
+#include <filesystem>
 #include <utility>
 
 #include "app/player/player.h"
 #include "platform/log.h"
+#include "platform/text/lower_case.h"
 
 namespace relievo {
 namespace {
 
 constexpr Error kNoPicture{ErrorCode::Corrupt, 0,
                            "it ended without a single picture; check that its files are still there and whole"};
+
+bool isSubtitles(const std::string& url) {
+  constexpr std::array kEndings{".srt", ".ass", ".ssa", ".vtt"};
+  return std::ranges::find(kEndings, lowerCase(std::filesystem::path(url).extension().string())) != kEndings.end();
+}
 
 }  // namespace
 
@@ -20,10 +29,17 @@ void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now
   openFilm(0, Programme::Way::Forward, now);
 }
 
-// Files dropped on the window are played instead of the present film.
+// Files dropped on the window are played instead of the present film. Subtitles do not end it.
 void Player::followDrops(MonotonicTime now) {
   std::vector<PlaylistEntry> films;
-  for (std::string& url : screen_.takeDropped()) films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
+  for (std::string& url : screen_.takeDropped()) {
+    if (film_.isOpen() && isSubtitles(url)) {
+      const std::string name = std::filesystem::path(fileName()).stem().string() + ".srt";
+      screen_.text().notice({"Subtitles are read beside the film by its name: " + name, std::nullopt}, now);
+      continue;
+    }
+    films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
+  }
   if (!films.empty()) openList(films, now);
 }
 

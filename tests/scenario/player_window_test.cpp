@@ -117,6 +117,17 @@ TEST_F(PlayerWindow, WhyNoFilmCanBePlayedIsShownInTheListOfFilms) {
   }
 }
 
+TEST_F(PlayerWindow, SubtitlesThatAreDroppedDoNotEndTheFilm) {
+  std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nhello\n";
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  ASSERT_TRUE(screen_->drop(window_, folder_ / "words.SRT"));
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "idle"}));
+}
+
 // There is no window manager here: SDL's wish alone changes nothing.
 TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {
   const auto player = play({"--haptic", "none"});
