@@ -21,8 +21,9 @@ std::string timesOf(const ScreenFacts& facts) {
   std::string times = clockTime(has_length ? std::min(facts.position_s, facts.duration_s) : facts.position_s);
   if (has_length) times += " / " + clockTime(facts.duration_s);
   const auto add = [&times](const std::string& word) { times += "   " + word; };
+  const bool opens = facts.state == PlayerState::Opening;
+  if (opens || (!facts.held && facts.state != PlayerState::Playing)) add(name(facts.state));
   if (facts.held) add("paused");
-  else if (facts.state != PlayerState::Playing) add(name(facts.state));
   if (facts.rate != 1) add(facts.rate > 1 ? print("%gx", facts.rate) : print("1/%gx", 1 / facts.rate));
   if (facts.films > 1) add(print("film %zu of %zu", facts.film, facts.films));
   if (facts.loop) add("repeat");

@@ -59,14 +59,17 @@ ScreenRows Statistics::rows(const PlayReport& report, const FingerForces& forces
   next_ = now + kPeriod;
   const FilmInfo& film = report.film;
   const double nominal = film.frame_period > Duration(0) ? 1 / toSeconds(film.frame_period) : 0;
-  ScreenRows rows{
-      {"rate", print("%.1f of %.2f frames/s, %llu dropped", rate, nominal, count(report.frames_dropped))},
-      {"picture", print("%dx%d %s, ", film.color_width, film.color_height, film.color_codec.c_str()) + depthOf(film)},
-      {"colour", colorOf(film)},
-      {"tracks", "sound " + listOf(film.sounds, film.sound) + ", subtitles " + listOf(film.subtitles, film.words)},
-      {"decoder", film.color_decoder},
-      {"drawing",
-       print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles, report.picture_error_px)}};
+  ScreenRows rows{{"rate", print("%.1f of %.2f frames/s, %llu dropped", rate, nominal, count(report.frames_dropped))}};
+  if (film.color_width > 0) {  // it is open
+    rows.emplace_back(
+        "picture", print("%dx%d %s, ", film.color_width, film.color_height, film.color_codec.c_str()) + depthOf(film));
+    rows.emplace_back("colour", colorOf(film));
+    rows.emplace_back("tracks",
+                      "sound " + listOf(film.sounds, film.sound) + ", subtitles " + listOf(film.subtitles, film.words));
+    rows.emplace_back("decoder", film.color_decoder);
+  }
+  rows.emplace_back("drawing", print("%.1f ms, %zu triangles, error %.2f px", report.draw_ms, report.triangles,
+                                     report.picture_error_px));
   addTouch(rows, report.haptic, "", forces_n[0], film.has_depth);
   if (report.second_finger) addTouch(rows, report.second_finger->haptic, " 2", forces_n[1], film.has_depth);
   if (!report.sound.device.empty()) {

@@ -46,7 +46,9 @@ TEST(ScreenText, TellsTitleTimeStereoAndTouch) {
 TEST(ScreenText, DoesNotSpeakOfTheDepthOfAFilmThatIsBeingOpened) {
   ScreenText text;
   text.wake(kStart);
-  EXPECT_EQ(at(text, {.title = "film.mkv", .state = PlayerState::Opening}).bar->status, "");
+  const auto bar = at(text, {.title = "film.mkv", .state = PlayerState::Opening, .held = true}).bar;
+  EXPECT_EQ(bar->status, "");
+  EXPECT_EQ(bar->times, "0:00   opening   paused");
 }
 
 TEST(ScreenText, TellsBothFingers) {
@@ -241,6 +243,8 @@ TEST(Statistics, ListTheTracksAndMarkTheChosenOnes) {
     const auto row = std::ranges::find(rows, "tracks", &std::pair<std::string, std::string>::first);
     return row == rows.end() ? std::string() : row->second;
   };
+  EXPECT_EQ(tracks(), "") << "nothing is open yet";
+  report.film.color_width = 640;
   EXPECT_EQ(tracks(), "sound none, subtitles none");
   report.film.sounds = {{.language = "eng"}, {.language = "deu"}, {.language = "und"}};
   report.film.sound = 1;
