@@ -11,6 +11,15 @@
 namespace relievo {
 namespace {
 
+constexpr double kRoomAcross = 0.95, kRoomDown = 0.92;  // shares of a screen that a window takes by itself
+
+// Where a window begins that grows or shrinks around its middle, within that share of the screen.
+int aroundMiddle(int from, int before, int size, int room_from, int room, double share) noexcept {
+  const int edge = static_cast<int>(std::lround(0.5 * (1 - share) * room));
+  const int last = std::max(room_from + edge, room_from + room - edge - size);
+  return std::clamp(from + (before - size) / 2, room_from + edge, last);
+}
+
 int trueSize(EGLint side) noexcept {
   EGLint pixels = 0;
   eglQuerySurface(eglGetCurrentDisplay(), eglGetCurrentSurface(EGL_DRAW), side, &pixels);
@@ -73,9 +82,9 @@ void WindowDisplay::leaveByHand() noexcept {
 }
 
 // Sets the window's size in pixels: enlarged by the desktop's scale, then shrunk in its own shape if the screen is too
-// small. The window's frame and title take space too: up to 1/14 of a screen of 600 rows.
+// small. The window's frame and title take space too: up to 1/14 of a screen of 600 rows. A window that is shown stays
+// where the viewer has moved it.
 void WindowDisplay::takeSize(int width, int height) noexcept {
-  constexpr double kRoomAcross = 0.95, kRoomDown = 0.92;
   const int enlarged = desktopScale();
   width *= enlarged;
   height *= enlarged;
@@ -85,8 +94,21 @@ void WindowDisplay::takeSize(int width, int height) noexcept {
     width = std::max(1, static_cast<int>(std::lround(scale * width)));
     height = std::max(1, static_cast<int>(std::lround(scale * height)));
   }
+  if (by_hand_) {
+    before_.w = width, before_.h = height;
+    return;
+  }
+  int x = SDL_WINDOWPOS_CENTERED, y = SDL_WINDOWPOS_CENTERED;
+  if (film_size_ && !hidden_) {
+    SDL_Rect now{};
+    SDL_GetWindowPosition(window_, &now.x, &now.y);
+    SDL_GetWindowSize(window_, &now.w, &now.h);
+    if (now.w == width && now.h == height) return;
+    x = aroundMiddle(now.x, now.w, width, room.x, room.w, kRoomAcross);
+    y = aroundMiddle(now.y, now.h, height, room.y, room.h, kRoomDown);
+  }
   SDL_SetWindowSize(window_, width, height);
-  SDL_SetWindowPosition(window_, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED);
+  SDL_SetWindowPosition(window_, x, y);
 }
 
 }  // namespace relievo

@@ -214,6 +214,48 @@ TEST_F(WindowDisplay, WithAFilmsSizeItComesUpWithTheFirstFrame) {
   EXPECT_EQ(screen_->place(window)->width, 300) << "as the viewer has made it";
 }
 
+// As in other players, also without a window manager.
+TEST_F(WindowDisplay, TheNextFilmLeavesTheWindowWhereTheViewerHasMovedIt) {
+  const auto other = makeWindowDisplay(std::make_shared<WindowInput>(), clock_);
+  ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
+  const auto plays = [&](const char* title, int width, int height) {
+    other->announce({title, width, height});
+    ASSERT_TRUE(other->beginFrame());
+    ASSERT_TRUE(other->present());
+    ASSERT_TRUE(other->attend());
+  };
+  plays("first", 240, 100);
+  const unsigned long window = screen_->find("first - relievo");
+  ASSERT_NE(window, 0u);
+  const auto lies = [&](const XScreen::Place& at) {
+    return until([&] {
+      const auto place = screen_->place(window).value_or(XScreen::Place{});
+      return other->attend() && place.x == at.x && place.y == at.y && place.width == at.width &&
+             place.height == at.height;
+    });
+  };
+  EXPECT_TRUE(lies({200, 190, 240, 100})) << "in the middle";
+  screen_->move(window, {100, 60, 240, 100});
+  EXPECT_TRUE(lies({100, 60, 240, 100}));
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(other->attend());
+  plays("second", 240, 100);
+  EXPECT_TRUE(lies({100, 60, 240, 100}));
+  plays("third", 200, 120);
+  EXPECT_TRUE(lies({120, 50, 200, 120}));
+  plays("fourth", 400, 300);
+  EXPECT_TRUE(lies({20, 19, 400, 300})) << "around its middle, but whole";
+  other->fillScreen(FullScreen::On);
+  EXPECT_TRUE(until([&] {
+    clock_.advance(100ms);
+    return other->attend() && screen_->place(window)->width == XScreen::kWidth;
+  }));
+  plays("fifth", 240, 100);
+  EXPECT_EQ(screen_->place(window)->width, XScreen::kWidth) << "it fills the screen";
+  other->fillScreen(FullScreen::Off);
+  EXPECT_TRUE(until([&] { return other->attend() && screen_->place(window)->width == 240; }));
+}
+
 // 192 dpi: everything is drawn twice as large.
 TEST_F(WindowDisplay, AFilmsSizeIsThatOfTheDesktopsPoints) {
   screen_->setResources("Xft.dpi:\t192\n");
