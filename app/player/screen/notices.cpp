@@ -34,6 +34,7 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
   switch (command.verb) {
     case PlayerVerb::Faster:
     case PlayerVerb::Slower:
+    case PlayerVerb::NormalSpeed:
       return words(rateWords(facts.rate));
     case PlayerVerb::Loop:
       return words(facts.loop ? "Repeat: on" : "Repeat: off");

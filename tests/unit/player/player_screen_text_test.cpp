@@ -215,6 +215,12 @@ TEST(ScreenText, AKeyToAChapterTellsWhichItIs) {
   EXPECT_EQ(noticeOf(command, facts)->words, "Chapter 2 of 4, The Nose");
 }
 
+TEST(ScreenText, TheUsualSpeedIsToldInPlaceOfTheOneBefore) {
+  const auto notice = noticeOf({PlayerVerb::NormalSpeed}, playing());
+  ASSERT_TRUE(notice);
+  EXPECT_EQ(notice->words, "Speed 1x");
+}
+
 TEST(ScreenText, KeysThatFindNoRoomComePageByPage) {
   ScreenText text;
   text.setKeyNames("h", "Enter");
