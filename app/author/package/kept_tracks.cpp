@@ -201,6 +201,9 @@ Result<KeptTracks::PacketPtr> KeptTracks::next() {
     PacketPtr packet = std::move(read->packet);
     // Opening the file has read packets of other programmes too, whose clocks may be hours away.
     if (packet->size == 0 || file_->streams[packet->stream_index]->discard == AVDISCARD_ALL) continue;
+    // What an edit list cuts off is read for the decoder alone. Without edit lists it would be heard before the film.
+    const bool cut_off = (packet->flags & AV_PKT_FLAG_DISCARD) != 0;
+    if (cut_off && kind_ != FilmKind::Mp4 && kind_ != FilmKind::Mov) continue;
     makeContinuous(*packet);
     if (copies_.contains(packet->stream_index)) return packet;
   }

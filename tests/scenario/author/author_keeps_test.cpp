@@ -272,6 +272,26 @@ TEST_F(AuthorKeeps, OfSeveralProgrammesThePicturesOwnSoundInTime) {
   EXPECT_NEAR(sound.back(), pictures.back(), 0.1);
 }
 
+// A cut without coding again: the file has .4 s more, from the key frame on, which its edit list leaves out.
+TEST_F(AuthorKeeps, NoSoundThatAnEditListCutsOff) {
+  const std::string make =
+      "ffmpeg -v error -y -f lavfi -i testsrc2=s=64x48:r=25:d=3 -f lavfi -i sine=440:d=3 -c:v libx264 -g 25 -c:a aac"
+      " @/long.mp4 && ffmpeg -v error -y -ss 1.4 -i @/long.mp4 -c copy @/cut.mp4";
+  ASSERT_EQ(std::system(inFolder(make).c_str()), 0);
+  ASSERT_LT(timesOf(folder_ / "cut.mp4", "a:0").front(), -0.3);
+  for (const char* ending : {".mkv", ".ts", ".m3u8", ".mp4"}) {
+    author(std::string("--depth @/pictures.mkv -o @/cut-film") + ending, "@/cut.mp4");
+    const std::string film = folder_ / (std::string("cut-film") + ending);
+    const auto starts = [&](const char* stream) {
+      return std::strtod(say("ffprobe -v error -select_streams " + std::string(stream) +
+                             " -show_entries stream=start_time -of default=nk=1:nw=1 " + film)
+                             .c_str(),
+                         nullptr);
+    };
+    EXPECT_NEAR(starts("a:0"), starts("v:0"), 0.03) << ending;
+  }
+}
+
 TEST_F(AuthorKeeps, NothingThatIsNotWished) {
   const std::string said = author("--no-audio --no-subtitles -o @/out.mkv");
   EXPECT_THAT(tracksOf(folder_ / "out.mkv", "a"), IsEmpty());
