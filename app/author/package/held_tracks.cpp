@@ -12,15 +12,14 @@ namespace relievo {
 namespace {
 
 // Codecs that common players support in a transport stream or an HLS segment.
-constexpr std::array kInTransport{AV_CODEC_ID_MP1,          AV_CODEC_ID_MP2,
-                                  AV_CODEC_ID_MP3,          AV_CODEC_ID_AAC,
-                                  AV_CODEC_ID_AAC_LATM,     AV_CODEC_ID_AC3,
-                                  AV_CODEC_ID_EAC3,         AV_CODEC_ID_DTS,
-                                  AV_CODEC_ID_TRUEHD,       AV_CODEC_ID_OPUS,
-                                  AV_CODEC_ID_S302M,        AV_CODEC_ID_DVB_SUBTITLE,
-                                  AV_CODEC_ID_DVB_TELETEXT, AV_CODEC_ID_HDMV_PGS_SUBTITLE};
+constexpr std::array kInTransport{
+    AV_CODEC_ID_MP1,   AV_CODEC_ID_MP2,          AV_CODEC_ID_MP3,         AV_CODEC_ID_AAC,    AV_CODEC_ID_AAC_LATM,
+    AV_CODEC_ID_AC3,   AV_CODEC_ID_EAC3,         AV_CODEC_ID_DTS,         AV_CODEC_ID_TRUEHD, AV_CODEC_ID_OPUS,
+    AV_CODEC_ID_S302M, AV_CODEC_ID_DVB_SUBTITLE, AV_CODEC_ID_DVB_TELETEXT};
 constexpr std::array kInSegments{AV_CODEC_ID_AAC,  AV_CODEC_ID_AC3,  AV_CODEC_ID_EAC3, AV_CODEC_ID_MP3,
                                  AV_CODEC_ID_FLAC, AV_CODEC_ID_OPUS, AV_CODEC_ID_ALAC};
+// FFmpeg's muxer has names for them, but refuses to write them.
+constexpr std::array kNotInQuickTime{AV_CODEC_ID_FLAC, AV_CODEC_ID_OPUS, AV_CODEC_ID_TRUEHD};
 
 }  // namespace
 
@@ -35,6 +34,7 @@ bool isMp4(FilmKind kind) noexcept {
 bool canHold(const AVFormatContext& film, FilmKind kind, AVCodecID codec) {
   if (isTransport(kind)) return std::ranges::find(kInTransport, codec) != kInTransport.end();
   if (kind == FilmKind::Hls) return std::ranges::find(kInSegments, codec) != kInSegments.end();
+  if (kind == FilmKind::Mov && std::ranges::find(kNotInQuickTime, codec) != kNotInQuickTime.end()) return false;
   return avformat_query_codec(film.oformat, codec, FF_COMPLIANCE_NORMAL) == 1;
 }
 
@@ -46,6 +46,7 @@ AVCodecID textOf(FilmKind kind) noexcept {
 const char* nameOf(FilmKind kind) noexcept {
   if (isTransport(kind)) return "a transport stream";
   if (kind == FilmKind::Hls) return "an HLS film";
+  if (kind == FilmKind::Mov) return "QuickTime";
   return kind == FilmKind::Matroska ? "Matroska" : "MP4";
 }
 

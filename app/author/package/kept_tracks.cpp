@@ -269,11 +269,15 @@ Result<void> KeptTracks::put(PacketPtr packet) {
   if (packet->dts != AV_NOPTS_VALUE) packet->dts -= shift;
   av_packet_rescale_ts(packet.get(), base, copy.stream->time_base);
   const bool strict = (film_->oformat->flags & AVFMT_TS_NONSTRICT) == 0;
-  if (packet->dts != AV_NOPTS_VALUE && copy.last_dts != AV_NOPTS_VALUE) {
+  if (packet->dts != AV_NOPTS_VALUE) {
     // In a source whose times jump back, packets are left out until the time before the jump is reached again.
-    if (packet->dts < copy.last_dts || (strict && packet->dts == copy.last_dts)) return {};
+    if (copy.last_dts != AV_NOPTS_VALUE && packet->dts < copy.last_dts) return {};
+    copy.last_dts = packet->dts;
+    // Packets shorter than a millisecond, as TrueHD's, may have the same time in Matroska.
+    if (copy.least_dts != AV_NOPTS_VALUE) packet->dts = std::max(packet->dts, copy.least_dts);
+    if (packet->pts != AV_NOPTS_VALUE) packet->pts = std::max(packet->pts, packet->dts);
+    copy.least_dts = packet->dts + (strict ? 1 : 0);
   }
-  copy.last_dts = packet->dts;
   packet->stream_index = copy.stream->index;
   packet->pos = -1;
   return place_->write(*packet);

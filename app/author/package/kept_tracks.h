@@ -54,8 +54,9 @@ class KeptTracks {
   };
   using PacketPtr = std::unique_ptr<AVPacket, FreePacket>;
   struct Copy {
-    AVStream* stream = nullptr;  // of the film
-    std::int64_t last_dts = AV_NOPTS_VALUE;
+    AVStream* stream = nullptr;               // of the film
+    std::int64_t last_dts = AV_NOPTS_VALUE;   // as the source has it, in the film's time base
+    std::int64_t least_dts = AV_NOPTS_VALUE;  // that the next packet may have
     std::unique_ptr<TextSubtitles> converter;
     PacketPtr text;  // converted; the next one joins it if it begins at the same time, since MP4 shows one at a time
   };

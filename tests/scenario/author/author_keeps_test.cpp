@@ -272,6 +272,34 @@ TEST_F(AuthorKeeps, OfSeveralProgrammesThePicturesOwnSoundInTime) {
   EXPECT_NEAR(sound.back(), pictures.back(), 0.1);
 }
 
+// TrueHD's packets take 5/6 ms, and Matroska counts milliseconds. What a container cannot hold does not end the run.
+TEST_F(AuthorKeeps, EachPacketOfSoundThatIsKept) {
+  const std::string make =
+      "ffmpeg -v error -y -i @/pictures.mkv -f lavfi -i sine=440:d=2:r=48000 -map 0 -map 1 -map 1 -map 1 -c:v copy"
+      " -strict -2 -c:a:0 truehd -c:a:1 flac -c:a:2 opus @/many.mkv";
+  ASSERT_EQ(std::system(inFolder(make).c_str()), 0);
+  const std::string source = folder_ / "many.mkv";
+  const std::vector<std::string> all{"truehd", "flac", "opus"};
+  for (const auto& [name, held] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{{"out.mkv", all},
+                                                                     {"out.mp4", all},
+                                                                     {"out.mov", {}},
+                                                                     {"out.ts", {"truehd", "opus"}},
+                                                                     {"out.m3u8", {"flac", "opus"}}}) {
+    const std::string said = author("-o @/" + name, "@/many.mkv");
+    std::string kept;
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      kept += (i == 0 ? "kept: sound " : ", sound ") + held[i];
+      const auto track = std::ranges::find(all, held[i]) - all.begin();
+      EXPECT_EQ(timesOf(folder_ / name, "a:" + std::to_string(i)).size(),
+                timesOf(source, "a:" + std::to_string(track)).size())
+          << name << ": " << held[i];
+    }
+    EXPECT_THAT(said, HasSubstr(kept));
+    EXPECT_EQ(said.find("kept: ") == said.npos, held.empty());
+  }
+}
+
 // A cut without coding again: the file has .4 s more, from the key frame on, which its edit list leaves out.
 TEST_F(AuthorKeeps, NoSoundThatAnEditListCutsOff) {
   const std::string make =

@@ -132,6 +132,7 @@ Result<void> FilmPlace::makeMuxer(const char* format, const std::string& url) {
     return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
   }
   muxer_.reset(made);
+  muxer_->strict_std_compliance = FF_COMPLIANCE_EXPERIMENTAL;  // as FFmpeg 5.1 calls FLAC and TrueHD in MP4
   return {};
 }
 
