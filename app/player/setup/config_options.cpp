@@ -32,7 +32,19 @@ std::string placed(const std::string& place, const std::string& key, std::string
   return place + (words.starts_with(' ') ? " =" : "") + std::string(words);
 }
 
+bool isFlag(const CLI::Option& option) {
+  return option.get_items_expected_max() == 0;
+}
+
+// CLI11 would also take yes, numbers and lists for a flag.
+bool isTrueOrFalse(const std::vector<std::string>& words) {
+  return words.size() == 1 && (words.front() == "true" || words.front() == "false");
+}
+
 Outcome<void> give(CLI::Option& option, const ConfigEntry& entry, const std::string& place) {
+  if (isFlag(option) && !isTrueOrFalse(entry.words)) {
+    return failOn(place + " = " + tomlOf(entry.words), {ErrorCode::InvalidArgument, 0, "it is either true or false"});
+  }
   try {
     std::vector<std::string> words = entry.words;
     std::ranges::transform(words, words.begin(), singleWord);
@@ -76,7 +88,7 @@ std::string configText(const CLI::App& command, const FileConfig& config, const 
   for (const CLI::Option* option : command.get_options([](const CLI::Option*) { return true; })) {
     const std::string key = keyOf(*option);
     if (key.empty()) continue;
-    const bool flag = option->get_items_expected_max() == 0;
+    const bool flag = isFlag(*option);
     const auto line = lines.find(key);
     if (line != lines.end()) {
       text += lineOf(key, option->results(), config.path + ":" + std::to_string(line->second));

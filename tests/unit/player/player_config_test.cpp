@@ -198,7 +198,9 @@ TEST_F(PlayConfig, WhatIsWrongIsOneLineThatNamesItsPlace) {
   expectRefused("[play]\ndepth-strength = nan\n", 2, path() + ":2: ");
   expectRefused("[play]\npacking = \"diagonal\"\n", 2, path() + ":2: ");
   expectRefused("[play]\nsize = 640\n", 2, path() + ":2: size = 640: a size is");
-  expectRefused("[play]\nloop = \"perhaps\"\n", 2, path() + ":2: ");
+  expectRefused("[play]\nloop = \"maybe\"\n", 2, path() + ":2: loop = \"maybe\": it is either true or false");
+  expectRefused("[play]\nloop = 2\n", 2, path() + ":2: loop = 2: ");
+  expectRefused("[play]\nloop = [true, false]\n", 2, path() + ":2: loop = [true, false]: ");
   expectRefused("[play]\ndisplay = [\"a\", \"b\"]\n", 2, path() + ":2: ");
   expectRefused("[play]\nsize = []\n", 2, path() + ":2: ");
   expectRefused("[play]\nsize = { w = 1 }\n", 2, path() + ":2: ");
