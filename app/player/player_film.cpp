@@ -37,8 +37,6 @@ void Player::carryOut(const Deed& deed, MonotonicTime now) {
         return openSelected(now);
       }
       return openFilm(deed.film, deed.back ? Programme::Way::Back : Programme::Way::Forward, now);
-    case Deed::Kind::Note:
-      return journal_.note(deed.what, deed.done);
   }
 }
 

@@ -41,7 +41,15 @@ constexpr std::array kOfAnOpenFilm{PlayerVerb::DepthBy,      PlayerVerb::ScreenB
                                    PlayerVerb::ChapterBy,    PlayerVerb::LoopAB,    PlayerVerb::SubtitleTrack,
                                    PlayerVerb::ShowSubtitles};
 
-std::optional<std::string> trackRefusal(const PlayerCommand& command, const FilmInfo& film) {
+// What the film itself does not have.
+std::optional<std::string> lack(const PlayerCommand& command, double rate, const FilmInfo& film) {
+  const auto is = [&](PlayerVerb verb) { return verb == command.verb; };
+  const bool has_length = film.duration > Duration(0);
+  if (is(PlayerVerb::ChapterBy) && film.chapters.empty()) return "this film has no chapters";
+  if (is(PlayerVerb::SeekShare) && !has_length) return "this film's length is not known";
+  if (is(PlayerVerb::Faster) && rate >= 1 && !has_length) return "a live film has no fast forward";
+  if ((is(PlayerVerb::DepthBy) || is(PlayerVerb::ScreenBy)) && !film.has_depth)
+    return "this film has no depth to change";
   const bool sound = command.verb == PlayerVerb::AudioTrack;
   if (!sound && command.verb != PlayerVerb::SubtitleTrack) return std::nullopt;
   const std::size_t tracks = sound ? film.sounds.size() : film.subtitles.size();
@@ -160,9 +168,7 @@ std::optional<std::string> Player::refusal(const PlayerCommand& command) const {
   if (state_ == PlayerState::Opening && std::ranges::any_of(kOfAnOpenFilm, is)) return "the film is still being opened";
   const bool steps = is(PlayerVerb::Step) || is(PlayerVerb::StepBack);
   if (steps && !film_.rushes() && !nextState(state_, PlayerEvent::Step)) return "there is no picture to step from yet";
-  const bool changes_relief = is(PlayerVerb::DepthBy) || is(PlayerVerb::ScreenBy);
-  if (changes_relief && !film_.info().has_depth) return "this film has no depth to change";
-  if (auto why = trackRefusal(command, film_.info())) return why;
+  if (auto why = lack(command, film_.rate(), film_.info())) return why;
   const std::size_t film = placeOnShelf().value_or(programme_.present());
   const std::size_t films = placeOnShelf() ? browser_->shelf().size() : programme_.size();
   if (!is(PlayerVerb::Next) || film + 1 < films || programme_.wraps()) return std::nullopt;

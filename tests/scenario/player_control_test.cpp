@@ -242,7 +242,7 @@ TEST_F(PlayerAndPrograms, WhatCannotBeDoneIsRefused) {
   bench_.config.source.url = "";
   bench_.config.stays = true;
   bench_.sources["film"].tracks.pop_back();
-  for (const char* words : {"audio 5", "subtitles 4", "depth +0.1"}) at(0.5, words);
+  for (const char* words : {"audio 5", "subtitles 4", "depth +0.1", "chapter +1"}) at(0.5, words);
   at(1, "seek 8");
   at(1, "step");
   at(2, "quit");
@@ -252,7 +252,7 @@ TEST_F(PlayerAndPrograms, WhatCannotBeDoneIsRefused) {
   const std::string opening = "the film is still being opened";
   EXPECT_THAT(refused, ElementsAre("", opening, opening, opening, "there is no sound track 5; the film has 0",
                                    "there is no subtitle track 4; the film has 0", "this film has no depth to change",
-                                   "", "there is no picture to step from yet", ""));
+                                   "this film has no chapters", "", "there is no picture to step from yet", ""));
 }
 
 TEST_F(PlayerAndPrograms, AStatusTellsNothingOfTheFilmBeforeWhileTheNextOneOpens) {

@@ -28,14 +28,10 @@ Deed open(std::size_t film, bool back = false) {
   return {.kind = Deed::Kind::OpenFilm, .film = film, .back = back};
 }
 
-Deed note(const char* what, const char* done) {
-  return {.kind = Deed::Kind::Note, .what = what, .done = done};
-}
-
 // Entering and leaving key-frame playback needs a seek to the present position.
 Deeds changeRate(double rate, const Situation& s) {
   if (rate == s.rate || !nextState(s.state, PlayerEvent::Rate)) return {};
-  if (rate > 1 && s.length <= Duration(0)) return {note("a live film has no fast forward", "it plays on")};
+  if (rate > 1 && s.length <= Duration(0)) return {};
   Deeds deeds{{.kind = Deed::Kind::Rate, .rate = rate}};
   if (rate > 1 || s.rate > 1) deeds.push_back(seek(s.here, false));
   return deeds;
@@ -76,9 +72,8 @@ Deeds stepBack(const Situation& s) {
 }
 
 Deeds seekShare(double share, const Situation& s) {
-  if (s.length > Duration(0)) return {seek(mediaTime(share * toSeconds(s.length)), true)};
-  if (!nextState(s.state, PlayerEvent::Seek)) return {};
-  return {note("this film's length is not known", "cannot seek to a percentage of it")};
+  if (s.length <= Duration(0)) return {};
+  return {seek(mediaTime(share * toSeconds(s.length)), true)};
 }
 
 Deeds previous(const Situation& s) {
@@ -92,7 +87,7 @@ MediaTime beginOf(const Chapter& chapter) {
 
 // Goes back to this chapter's beginning, or from near that to the one before. There is nothing after the last chapter.
 Deeds seekChapter(int by, const Situation& s) {
-  if (s.chapters.empty()) return {note("this film has no chapters", "it plays on")};
+  if (s.chapters.empty()) return {};
   const MediaTime from = by < 0 ? s.here - kBeginning : s.here;
   const auto next = std::ranges::upper_bound(s.chapters, from, {}, beginOf);
   const auto wished = (next - s.chapters.begin()) + (by > 0 ? by - 1 : by);

@@ -38,7 +38,6 @@ struct Deed {
     Rate,      // at `rate`
     Seek,      // to `target`; `by_viewer`: it is reported
     OpenFilm,  // entry `film` of the list; `back`: the viewer moves backwards
-    Note,      // `what` is impossible; `done` happens instead
   };
   Kind kind = Kind::GoOn;
   double rate = 1;
@@ -46,8 +45,6 @@ struct Deed {
   bool by_viewer = false;
   std::size_t film = 0;
   bool back = false;
-  const char* what = "";
-  const char* done = "";
 };
 
 // The actions, in order, for commands that control playback or choose a film of the list. Empty for other commands, and

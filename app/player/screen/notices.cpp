@@ -67,7 +67,7 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
     case PlayerVerb::SubtitleSizeBy:
       return words(print("Subtitles %.0f %%", 100 * facts.subtitle_size));
     case PlayerVerb::ChapterBy:
-      return facts.chapter.empty() ? words("This film has no chapters") : words("Chapter " + facts.chapter);
+      return words("Chapter " + facts.chapter);
     case PlayerVerb::LoopAB:
       return words(!facts.loop_from_s ? "A-B loop off" : !facts.loop_to_s ? "A-B loop: from here" : "A-B loop: on");
     default:
