@@ -10,7 +10,10 @@
 #include <cerrno>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "platform/files/file_system_answer.h"
 
@@ -43,41 +46,93 @@ Error openError(int code) noexcept {
   }
 }
 
-// What a helper thread opens; closed unless it is taken.
-struct OpenedCard {
-  explicit OpenedCard(const AudioFormat& asked) : wished(asked), format(asked) {}
-  ~OpenedCard() {
-    if (pcm != nullptr) snd_pcm_close(pcm);
+// A card, as a helper thread uses it: it opens it, and the last one that holds it closes it.
+class Card {
+ public:
+  explicit Card(const AudioFormat& asked) : wished(asked), format(asked) {}
+  ~Card() {
+    if (pcm_ != nullptr) snd_pcm_close(pcm_);
   }
-  OpenedCard(const OpenedCard&) = delete;
-  OpenedCard& operator=(const OpenedCard&) = delete;
+  Card(const Card&) = delete;
+  Card& operator=(const Card&) = delete;
 
   void open(const std::string& device) {
-    refused = snd_pcm_open(&pcm, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
-    if (refused < 0) pcm = nullptr;
+    refused = snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
+    if (refused < 0) pcm_ = nullptr;
     else unfit = configure();
     done = true;
   }
 
+  // How many frames it took, or ALSA's error.
+  snd_pcm_sframes_t write(std::span<const float> samples) {
+    const auto channels = static_cast<std::size_t>(format.channels);
+    const std::size_t frames = samples.size() / channels;
+    std::size_t taken_before = 0;
+    bool recovered = false;
+    while (taken_before < frames) {
+      // Ask for the room first, since snd_pcm_writei alone would not write less than a period.
+      snd_pcm_sframes_t taken = snd_pcm_avail_update(pcm_);
+      if (taken > 0) {
+        const std::size_t most = as_float_ ? frames : kConvertedAtOnce / channels;
+        const std::size_t count = std::min({frames - taken_before, static_cast<std::size_t>(taken), most});
+        taken = snd_pcm_writei(pcm_, native(samples.subspan(taken_before * channels, count * channels)), count);
+      }
+      if (taken == 0 || taken == -EAGAIN) break;
+      if (taken > 0) {
+        taken_before += static_cast<std::size_t>(taken);
+        continue;
+      }
+      // After an underrun or a suspend, restart the device.
+      const bool anew = (taken == -EPIPE || taken == -ESTRPIPE) && !std::exchange(recovered, true);
+      if (!anew || snd_pcm_prepare(pcm_) < 0) return taken;
+    }
+    return static_cast<snd_pcm_sframes_t>(taken_before);
+  }
+
+  struct Delay {
+    int code = 0;  // 0, or ALSA's error; -EPIPE: silent
+    snd_pcm_sframes_t frames = 0;
+  };
+  Delay delay() {
+    const snd_pcm_state_t state = snd_pcm_state(pcm_);
+    if (state == SND_PCM_STATE_DISCONNECTED) return {.code = -ENODEV};
+    if (state != SND_PCM_STATE_RUNNING) return {.code = -EPIPE};
+    snd_pcm_sframes_t available = 0, waiting = 0;
+    const int code = snd_pcm_avail_delay(pcm_, &available, &waiting);  // snd_pcm_delay might not report an underrun
+    return {code, waiting};
+  }
+
+  int drop() {
+    const int dropped = snd_pcm_drop(pcm_), prepared = snd_pcm_prepare(pcm_);
+    return dropped < 0 ? dropped : prepared;
+  }
+
+  const AudioFormat wished;
+  AudioFormat format;
+  std::atomic<bool> done = false;  // what follows stands, and belongs to the player's thread
+  int refused = 0, unfit = 0;      // ALSA's errors
+  Duration buffer{0};
+
+ private:
   int configure() {
     snd_pcm_hw_params_t* hardware = nullptr;
     snd_pcm_hw_params_alloca(&hardware);
-    if (const int code = snd_pcm_hw_params_any(pcm, hardware); code < 0) return code;
-    if (const int code = snd_pcm_hw_params_set_access(pcm, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
+    if (const int code = snd_pcm_hw_params_any(pcm_, hardware); code < 0) return code;
+    if (const int code = snd_pcm_hw_params_set_access(pcm_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
       return code;
     }
-    as_float = snd_pcm_hw_params_set_format(pcm, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
-    if (!as_float) {
-      if (const int code = snd_pcm_hw_params_set_format(pcm, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
+    as_float_ = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
+    if (!as_float_) {
+      if (const int code = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
     }
     auto channels = static_cast<unsigned>(format.channels);
     auto rate = static_cast<unsigned>(format.rate_hz);
     unsigned buffer_us = kBufferUs, period_us = kPeriodUs;
-    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm, hardware, &channels),
-                           snd_pcm_hw_params_set_rate_near(pcm, hardware, &rate, nullptr),
-                           snd_pcm_hw_params_set_buffer_time_near(pcm, hardware, &buffer_us, nullptr),
-                           snd_pcm_hw_params_set_period_time_near(pcm, hardware, &period_us, nullptr),
-                           snd_pcm_hw_params(pcm, hardware)}) {
+    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm_, hardware, &channels),
+                           snd_pcm_hw_params_set_rate_near(pcm_, hardware, &rate, nullptr),
+                           snd_pcm_hw_params_set_buffer_time_near(pcm_, hardware, &buffer_us, nullptr),
+                           snd_pcm_hw_params_set_period_time_near(pcm_, hardware, &period_us, nullptr),
+                           snd_pcm_hw_params(pcm_, hardware)}) {
       if (code < 0) return code;
     }
     snd_pcm_uframes_t frames = 0;
@@ -87,20 +142,26 @@ struct OpenedCard {
 
     snd_pcm_sw_params_t* software = nullptr;
     snd_pcm_sw_params_alloca(&software);
-    if (const int code = snd_pcm_sw_params_current(pcm, software); code < 0) return code;
-    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm, software, 1); code < 0) return code;
-    return snd_pcm_sw_params(pcm, software);
+    if (const int code = snd_pcm_sw_params_current(pcm_, software); code < 0) return code;
+    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm_, software, 1); code < 0) return code;
+    return snd_pcm_sw_params(pcm_, software);
   }
 
-  const AudioFormat wished;
-  AudioFormat format;
-  std::atomic<bool> done = false;  // what follows stands, and belongs to the player's thread
-  snd_pcm_t* pcm = nullptr;
-  int refused = 0, unfit = 0;  // ALSA's errors
-  bool as_float = true;
-  Duration buffer{0};
+  const void* native(std::span<const float> samples) noexcept {
+    if (as_float_) return samples.data();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      converted_[i] = static_cast<std::int16_t>(std::lround(32767.0F * std::clamp(samples[i], -1.0F, 1.0F)));
+    }
+    return converted_.data();
+  }
+
+  snd_pcm_t* pcm_ = nullptr;
+  bool as_float_ = true;
+  std::array<std::int16_t, kConvertedAtOnce> converted_{};
 };
 
+// A plug-in for a sound server waits for the server's answer, also in non-blocking mode: all calls are made by a helper
+// thread. One that does not return costs that thread, and the card is lost.
 class AlsaOutput final : public AudioOutput {
  public:
   AlsaOutput(std::string device, const Clock& clock) : device_(std::move(device)), clock_(clock) {
@@ -114,103 +175,94 @@ class AlsaOutput final : public AudioOutput {
 
  private:
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the sound server does not answer within 3 s; start it anew"};
-    std::shared_ptr<OpenedCard> card = late_;
-    if (card != nullptr && !card->done) return std::unexpected(kNoAnswer);
+    constexpr Error kNotYet{ErrorCode::Timeout, 0, kSilentServer};
+    std::shared_ptr<Card> card = late_;
+    if (card != nullptr && !card->done) return std::unexpected(kNotYet);
     late_ = nullptr;
     if (card == nullptr || card->wished.rate_hz != wished.rate_hz || card->wished.channels != wished.channels) {
-      card = std::make_shared<OpenedCard>(wished);
-      // A plug-in for a sound server waits for the server's answer, also in non-blocking mode.
-      const auto asked = server_.ask("/", [card, device = device_] { card->open(device); });
-      if (!asked && asked.error().code == ErrorCode::Timeout) late_ = card;
-      if (!asked) return std::unexpected(late_ != nullptr ? kNoAnswer : asked.error());
+      card = std::make_shared<Card>(wished);
+      const auto asked = server_.ask(kServer, [card, device = device_] { card->open(device); });
+      if (!asked && asked.error().code == ErrorCode::Timeout) {
+        late_ = stuck_ ? nullptr : card;  // while an earlier call hangs, this one was not made
+        return std::unexpected(kNotYet);
+      }
+      if (!asked) return std::unexpected(asked.error());
     }
+    stuck_ = false;
     if (card->refused < 0) return std::unexpected(openError(card->refused));
     if (card->unfit < 0) {
       return fail(ErrorCode::Unsupported,
                   "the sound card takes neither float nor 16-bit samples; use a converting device, plughw:..",
                   -card->unfit);
     }
-    pcm_ = std::exchange(card->pcm, nullptr);
-    as_float_ = card->as_float;
-    buffer_ = card->buffer;
+    card_ = std::move(card);
+    buffer_ = card_->buffer;
     written_ = 0;
-    return card->format;
+    return card_->format;
   }
 
   Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
-    const auto channels = static_cast<std::size_t>(format().channels);
-    std::size_t done = 0;
-    bool recovered = false;
-    while (done < frames) {
-      // Ask for the room first, since snd_pcm_writei alone would not write less than a period.
-      snd_pcm_sframes_t taken = snd_pcm_avail_update(pcm_);
-      if (taken > 0) {
-        const std::size_t most = as_float_ ? frames : kConvertedAtOnce / channels;
-        const std::size_t count = std::min({frames - done, static_cast<std::size_t>(taken), most});
-        taken = snd_pcm_writei(pcm_, native(samples + done * channels, count * channels), count);
-      }
-      if (taken == 0 || taken == -EAGAIN) break;
-      if (taken > 0) {
-        done += static_cast<std::size_t>(taken);
-        continue;
-      }
-      // After an underrun or a suspend, restart the device.
-      const bool anew = (taken == -EPIPE || taken == -ESTRPIPE) && !std::exchange(recovered, true);
-      if (!anew || snd_pcm_prepare(pcm_) < 0) return std::unexpected(lost(static_cast<int>(taken)));
-    }
-    written_ += static_cast<std::int64_t>(done);
-    return done;
-  }
-
-  const void* native(const float* samples, std::size_t count) noexcept {
-    if (as_float_) return samples;
-    for (std::size_t i = 0; i < count; ++i) {
-      converted_[i] = static_cast<std::int16_t>(std::lround(32767.0F * std::clamp(samples[i], -1.0F, 1.0F)));
-    }
-    return converted_.data();
+    std::vector<float> copy(samples, samples + frames * static_cast<std::size_t>(card_->format.channels));
+    const auto taken = answerOf([copy = std::move(copy)](Card& card) { return card.write(copy); });
+    if (!taken) return std::unexpected(taken.error());
+    if (*taken < 0) return std::unexpected(lost(static_cast<int>(*taken)));
+    written_ += *taken;
+    return static_cast<std::size_t>(*taken);
   }
 
   // The time is read before and after the call, and the mean is taken. ALSA's own timestamps are not used: with some of
   // its plug-ins they come from another clock.
   Result<std::optional<AudioPosition>> samplePosition() override {
-    const snd_pcm_state_t state = snd_pcm_state(pcm_);
-    if (state == SND_PCM_STATE_DISCONNECTED) return std::unexpected(lost(-ENODEV));
-    if (state != SND_PCM_STATE_RUNNING) return std::nullopt;
-    snd_pcm_sframes_t available = 0, delay = 0;
     const MonotonicTime before = clock_.now();
-    const int code = snd_pcm_avail_delay(pcm_, &available, &delay);  // snd_pcm_delay might not report an underrun
+    const auto delay = answerOf([](Card& card) { return card.delay(); });
     const MonotonicTime after = clock_.now();
-    if (code == -EPIPE || code == -ESTRPIPE) return std::nullopt;
-    if (code < 0) return std::unexpected(lost(code));
-    return AudioPosition{written_ - delay, before + (after - before) / 2};
+    if (!delay) return std::unexpected(delay.error());
+    if (delay->code == -EPIPE || delay->code == -ESTRPIPE) return std::nullopt;
+    if (delay->code < 0) return std::unexpected(lost(delay->code));
+    return AudioPosition{written_ - delay->frames, before + (after - before) / 2};
   }
 
   Result<void> dropFrames() override {
-    for (const int code : {snd_pcm_drop(pcm_), snd_pcm_prepare(pcm_)}) {
-      if (code < 0) return std::unexpected(lost(code));
-    }
+    const auto code = answerOf([](Card& card) { return card.drop(); });
+    if (!code) return std::unexpected(code.error());
+    if (*code < 0) return std::unexpected(lost(*code));
     written_ = 0;
     return {};
   }
 
   void closeOutput() noexcept override {
-    if (pcm_ != nullptr) snd_pcm_close(std::exchange(pcm_, nullptr));
+    if (card_ == nullptr) return;
+    static_cast<void>(server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); }));
+    card_ = nullptr;
+  }
+
+  // What `call` returns, which must own all that it uses.
+  template <class Call>
+  auto answerOf(Call call) -> Result<decltype(call(std::declval<Card&>()))> {
+    auto answer = std::make_shared<std::optional<decltype(call(std::declval<Card&>()))>>();
+    const auto asked =
+        server_.ask(kServer, [card = card_, answer, call = std::move(call)] { answer->emplace(call(*card)); });
+    if (asked) return std::move(**answer);
+    stuck_ = asked.error().code == ErrorCode::Timeout;
+    card_ = nullptr;  // the helper thread still holds it
+    return fail(ErrorCode::Lost, stuck_ ? kSilentServer : asked.error().message);
   }
 
   static Error lost(int code) noexcept {
     return {ErrorCode::Lost, std::max(-code, 0), "the sound card has gone away; plug it in again"};
   }
 
+  static constexpr const char* kServer = "/";  // all calls wait for the same one
+  static constexpr const char* kSilentServer = "the sound server does not answer within 3 s; start it anew";
+
   const std::string device_;
   const Clock& clock_;
   FileSystemAnswers server_{kServerPatience};
-  std::shared_ptr<OpenedCard> late_;  // a server that answers later is taken at the next try
-  snd_pcm_t* pcm_ = nullptr;
-  bool as_float_ = true;
+  std::shared_ptr<Card> card_;  // null: closed
+  std::shared_ptr<Card> late_;  // a server that answers later is taken at the next try
+  bool stuck_ = false;          // a call other than an opening has not returned
   Duration buffer_{0};
   std::int64_t written_ = 0;  // since `open` or the last flush
-  std::array<std::int16_t, kConvertedAtOnce> converted_{};
 };
 
 }  // namespace

@@ -49,6 +49,32 @@ TEST(AlsaOutput, SaysWhatToDoAboutACardThatIsNotThere) {
   EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
 }
 
+// True once the server has given back the thread that waited for it.
+bool opensAgain(AudioOutput& audio) {
+  for (int tries = 0; tries < 1000; ++tries) {
+    if (audio.open({})) return true;
+    std::this_thread::sleep_for(10ms);
+  }
+  return false;
+}
+
+TEST(AlsaOutput, AWriteThatDoesNotReturnLosesTheCardUntilTheServerAnswers) {
+  ManualClock clock;
+  const auto [audio, unplug] = makeFakeCard(clock, true);
+  ASSERT_TRUE(audio->open({}));
+  test::sound_server_stalls = true;
+  const auto written = audio->write(std::vector<float>(960));
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::Lost);
+  EXPECT_EQ(audio->state(), AudioOutput::State::Lost);
+  audio->close();
+  EXPECT_EQ(audio->open({}).error().code, ErrorCode::Timeout);
+  EXPECT_EQ(audio->open({}).error().code, ErrorCode::Timeout);
+  test::sound_server_stalls = false;
+  EXPECT_TRUE(opensAgain(*audio));
+  EXPECT_TRUE(audio->write(std::vector<float>(960)));
+}
+
 TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
   ManualClock clock;
   const auto [audio, unplug] = makeFakeCard(clock, true);
@@ -59,12 +85,7 @@ TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
     EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
   }
   test::sound_server_stalls = false;
-  bool opened = false;
-  for (int tries = 0; tries < 1000 && !opened; ++tries) {
-    opened = audio->open({}).has_value();
-    if (!opened) std::this_thread::sleep_for(10ms);
-  }
-  EXPECT_TRUE(opened);
+  EXPECT_TRUE(opensAgain(*audio));
 }
 
 TEST(AlsaOutput, WritesSixteenBitsWithoutWrappingRound) {

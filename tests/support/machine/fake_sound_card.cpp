@@ -17,6 +17,10 @@
 namespace relievo::test {
 namespace {
 
+void waitForServer() {
+  for (int i = 0; i < 2000 && sound_server_stalls; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
 struct Stream {
   snd_pcm_ioplug_t io{};
   MonotonicTime begin;
@@ -52,6 +56,7 @@ snd_pcm_sframes_t pointer(snd_pcm_ioplug_t* io) {
 snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* areas, snd_pcm_uframes_t offset,
                            snd_pcm_uframes_t size) {
   FakeSoundCard& card = fakeSoundCard();
+  waitForServer();
   if (card.unplugged) return -ENODEV;
   if (io->format == SND_PCM_FORMAT_S16) {
     const auto* samples = static_cast<const std::int16_t*>(areas[0].addr) + offset * io->channels;
@@ -96,7 +101,7 @@ extern "C" {
 int _snd_pcm_relievo_fake_open(snd_pcm_t** pcm, const char* name, snd_config_t* /*root*/, snd_config_t* /*config*/,
                                snd_pcm_stream_t direction, int mode) {
   using namespace relievo::test;
-  for (int i = 0; i < 2000 && sound_server_stalls; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  waitForServer();
   if (fakeSoundCard().unplugged) return -ENODEV;
   auto* const stream = new Stream;
   stream->io.version = SND_PCM_IOPLUG_VERSION;
