@@ -180,7 +180,7 @@ TEST(OpenSources, AnswerWhileOneIsClosed) {
       sources.interrupt();
       return sources.waitsForColor(nullptr);
     });
-    answered = asked.wait_for(std::chrono::seconds(5));
+    answered = asked.wait_for(std::chrono::minutes(1));
   };
   ASSERT_TRUE(sources.take(std::make_unique<TrackReader>(std::move(source), nullptr)).has_value());
   sources.close();
