@@ -33,6 +33,8 @@ using Swells = std::array<double, kSwellBlocksMm.size()>;
 [[nodiscard]] inline double greatest(const Waves& waves) {
   return *std::max_element(waves.begin() + 1, waves.end());
 }
+// What the smallest blocks differ by beyond waves: a codec's traces, in mm.
+[[nodiscard]] double tracesAmong(const Waves& waves);
 // Whether they grow with the blocks as a relief's do; what a codec leaves is about a step in blocks of any size.
 [[nodiscard]] bool grow(const Waves& waves, double step_mm);
 // The error in the slope of a surface with such waves that smoothing of a width leaves.

@@ -152,6 +152,20 @@ TEST(TouchPlan, TheWidthSuitsTheStepsAndWhatACodecMadeOfThem) {
   EXPECT_NEAR(planTouch(steps).scale.wide_mm, std::pow(2 * 40.0 / 255 / 0.00506, 0.2), 0.02 * 2);
 }
 
+// Waves of 6 mm and a tightest radius of 3 mm have .396 mm in the smallest blocks without any codec.
+TEST(TouchPlan, WhatACodecLeavesBesideWavesWidensTheSmoothing) {
+  const auto width = [](const Waves& waves) {
+    return planTouch({.frames = 4, .quantum_mm = 40.0 / 255, .waves_mm = waves, .sample_mm = 0.22, .period_s = kPeriod})
+        .scale.wide_mm;
+  };
+  const double clean = width({0, 0.17, 0.55});
+  EXPECT_EQ(width({0.06, 0.17, 0.55}), clean) << "what the waves have there";
+  EXPECT_GT(width({0.15, 0.17, 0.55}), 1.25 * clean);
+  EXPECT_LT(width({0.15, 0.17, 0.55}), 1.5 * clean);
+  EXPECT_EQ(width({0.396, 1.16, 2.1}), width({0, 1.16, 2.1}));
+  EXPECT_EQ(width({0.4, 0.7, 0}), width({0, 0.7, 0})) << "waves too fine for the largest blocks";
+}
+
 TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {
   EXPECT_EQ(planFor(16, 0, true).scale.broad_mm, 0);
   const TouchPlan noise = planFor(8, 0.4, true, 0);
