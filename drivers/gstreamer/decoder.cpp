@@ -85,7 +85,7 @@ class GstreamerDecoder final : public VideoDecoder {
       countDamaged();
       return Feed::Accepted;
     }
-    begun_ = true;
+    if (!std::exchange(begun_, true)) first_ = *packet.pts;
     inside_.push_back({++last_tag_, *packet.pts});
     pipeline_->push(
         bufferOf(packet, toPipeline(*packet.pts), packet.dts ? toPipeline(*packet.dts) : GST_CLOCK_TIME_NONE));
@@ -123,7 +123,7 @@ class GstreamerDecoder final : public VideoDecoder {
       if (!pts) continue;
       given_any_ = true;
       if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) {
-        countDamaged();
+        giveUp(*pts);
         continue;
       }
       auto picture = frameOf(*sample, stream_, held_, isHardwareElement() && *held_ >= kPicturesHeld);
@@ -143,8 +143,13 @@ class GstreamerDecoder final : public VideoDecoder {
     if (found == inside_.end()) return std::nullopt;
     const auto [tag, pts] = *found;
     inside_.erase(found);
-    for (; !inside_.empty() && inside_.front().tag + kFarthest < tag; inside_.pop_front()) countDamaged();
+    for (; !inside_.empty() && inside_.front().tag + kFarthest < tag; inside_.pop_front()) giveUp(inside_.front().pts);
     return pts;
+  }
+  // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
+  // left out without damage.
+  void giveUp(MediaTime pts) noexcept {
+    if (pts >= first_) countDamaged();
   }
 
   // Each wait counts at most two turns, so that a stalled machine does not time the element out.
@@ -167,8 +172,7 @@ class GstreamerDecoder final : public VideoDecoder {
   }
   // The remaining packets will yield no pictures.
   Progress endOfStream() {
-    countDamaged(inside_.size());
-    inside_.clear();
+    for (; !inside_.empty(); inside_.pop_front()) giveUp(inside_.front().pts);
     return Progress::EndOfStream;
   }
 
@@ -209,6 +213,7 @@ class GstreamerDecoder final : public VideoDecoder {
   std::size_t inside_most_ = kUsuallyInside;
   std::uint64_t last_tag_ = 0;
   bool begun_ = false;  // a packet was fed
+  MediaTime first_;     // the time of the first one
   bool draining_ = false;
   bool given_any_ = false;
 };

@@ -84,11 +84,11 @@ class M2mDecoder final : public VideoDecoder {
     if (auto queued = outcomeOf(packets_->queue(*index, *bytes, ++last_tag_)); !queued) {
       return std::unexpected(queued.error());
     }
-    begun_ = true;
+    if (!std::exchange(begun_, true)) first_ = *packet.pts;
     unanswered_.push_back({last_tag_, *packet.pts});
     if (unanswered_.size() <= kMostUnanswered) return Feed::Accepted;
+    giveUp(unanswered_.front().pts);
     unanswered_.pop_front();
-    countDamaged();
     return Feed::Accepted;
   }
 
@@ -177,7 +177,12 @@ class M2mDecoder final : public VideoDecoder {
     return pts;
   }
   void lose(std::uint64_t tag) {
-    if (timeOf(tag)) countDamaged();
+    if (const auto pts = timeOf(tag)) giveUp(*pts);
+  }
+  // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
+  // left out without damage.
+  void giveUp(MediaTime pts) noexcept {
+    if (pts >= first_) countDamaged();
   }
 
   // The kernel's document of stateful decoders, section "Drain".
@@ -194,8 +199,7 @@ class M2mDecoder final : public VideoDecoder {
   }
   // The remaining packets will yield no pictures.
   Progress endOfStream() {
-    countDamaged(unanswered_.size());
-    unanswered_.clear();
+    for (; !unanswered_.empty(); unanswered_.pop_front()) giveUp(unanswered_.front().pts);
     return Progress::EndOfStream;
   }
   // Continues after an end-of-stream mark inside the stream.
@@ -273,6 +277,7 @@ class M2mDecoder final : public VideoDecoder {
   std::deque<Unanswered> unanswered_;  // packets that have no picture yet
   std::uint64_t last_tag_ = 0;
   bool begun_ = false;       // a packet was fed
+  MediaTime first_;          // the time of the first one
   bool change_due_ = false;  // the pictures' format changes
   bool stopped_ = false;     // the last picture before a change or of a drain has come
   bool draining_ = false, drain_told_ = false;

@@ -137,6 +137,22 @@ inline void expectSeeksToGoOnExactly(VideoDecoder& decoder, const Film& film, st
   }
   EXPECT_EQ(decoder.damaged(), 0u);
 }
+// After a seek to a key frame of an open group, the pictures shown before it cannot be decoded; nothing is damaged.
+inline void expectASeekIntoAnOpenGroupToDamageNothing(VideoDecoder& decoder, const Film& film) {
+  const auto software = bySoftware(film);
+  std::size_t key = 1;
+  while (key + 1 < film.packets.size() && !film.packets[key].keyframe) ++key;
+  ASSERT_LT(key + 1, film.packets.size());
+  ASSERT_LT(*film.packets[key + 1].pts, *film.packets[key].pts) << "the group is open";
+  std::vector<Shown> before, after;
+  ASSERT_TRUE(feedTo(decoder, film, 0, key, before));
+  ASSERT_TRUE(decoder.flush());
+  ASSERT_TRUE(feedTo(decoder, film, key, film.packets.size(), after));
+  EXPECT_EQ(after, std::vector(software.end() - static_cast<std::ptrdiff_t>(after.size()), software.end()));
+  ASSERT_FALSE(after.empty());
+  EXPECT_EQ(after.front().pts, *film.packets[key].pts);
+  EXPECT_EQ(decoder.damaged(), 0u);
+}
 // As in fast forward: each key frame is drained by itself.
 inline void expectKeyFramesDrainedOneByOne(VideoDecoder& decoder, const Film& film) {
   const auto software = bySoftware(film);

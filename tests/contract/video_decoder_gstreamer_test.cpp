@@ -152,6 +152,12 @@ TEST_F(Gstreamer, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
   expectSeeksToGoOnExactly(*decoder, film, 40);
 }
 
+TEST_F(Gstreamer, ASeekIntoAnOpenGroupDamagesNothing) {
+  const Film film(makeClip("open.mkv", movingClip("libx265")));
+  const auto decoder = open(film, "avdec_h265");
+  expectASeekIntoAnOpenGroupToDamageNothing(*decoder, film);
+}
+
 TEST_F(Gstreamer, DrainsAgainAndAgain) {
   const Film film(clip());
   const auto decoder = open(film, "avdec_h264");

@@ -129,6 +129,16 @@ TEST_F(V4l2M2m, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
   EXPECT_EQ(codec.openings(), 1);
 }
 
+TEST_F(V4l2M2m, ASeekIntoAnOpenGroupDamagesNothing) {
+  UmockdevCodec codec(bed_, 10, {.packets = V4L2_PIX_FMT_HEVC});
+  test::ClipTrack hevc = movingClip();
+  hevc.codec = "libx265";
+  hevc.options = {{"x265-params", "log-level=none"}};
+  const Film film(makeClip("open.mkv", hevc));
+  const auto decoder = open(film);
+  expectASeekIntoAnOpenGroupToDamageNothing(*decoder, film);
+}
+
 TEST_F(V4l2M2m, DrainsAgainAndAgain) {
   UmockdevCodec codec(bed_, 10);
   const Film film(clip());
