@@ -65,16 +65,16 @@ bool isLeftToSoftware(const StreamInfo& stream) {
 }
 
 std::unique_ptr<VideoDecoder> withSoftwareBehind(std::vector<std::unique_ptr<VideoDecoder>> decoders,
-                                                 const StreamInfo& stream) {
+                                                 const StreamInfo& stream, bool asked_for = false) {
   decoders.push_back(makeSoftwareDecoder(stream));
-  return decoders.size() == 1 ? std::move(decoders.front()) : makeFailoverDecoder(std::move(decoders));
+  return decoders.size() == 1 ? std::move(decoders.front()) : makeFailoverDecoder(std::move(decoders), asked_for);
 }
 
 // Adds the software decoder behind one that was requested by name.
 std::unique_ptr<VideoDecoder> backed(std::unique_ptr<VideoDecoder> decoder, const StreamInfo& stream) {
   std::vector<std::unique_ptr<VideoDecoder>> decoders;
   if (!isLeftToSoftware(stream)) decoders.push_back(std::move(decoder));
-  return withSoftwareBehind(std::move(decoders), stream);
+  return withSoftwareBehind(std::move(decoders), stream, true);
 }
 
 std::unexpected<Failure> unknown(const BackEndName& name, const char* message) {

@@ -19,7 +19,8 @@ constexpr std::size_t kMostBytes = std::size_t{48} << 20;
 
 class FailoverDecoder final : public VideoDecoder {
  public:
-  explicit FailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders) : decoders_(std::move(decoders)) {}
+  FailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders, bool asked_for)
+      : decoders_(std::move(decoders)), asked_for_(asked_for) {}
 
   [[nodiscard]] Capabilities capabilities() const noexcept override {
     Capabilities these = decoder().capabilities();
@@ -48,15 +49,14 @@ class FailoverDecoder final : public VideoDecoder {
     return openBest();
   }
 
-  // Opens the first decoder, from the current one on, that takes the stream. Missing hardware (NotFound) is not
-  // reported.
+  // Opens the first decoder, from the current one on, that takes the stream.
   Result<void> openBest() {
     inner_damaged_ = 0;
     for (;; ++current_) {
       auto opened = decoder().open(stream_);
       if (opened || isLast()) return opened;
       const Error& error = opened.error();
-      if (error.code == ErrorCode::NotFound) continue;
+      if (error.code == ErrorCode::NotFound && !asked_for_) continue;
       refusal_ = error.message;
       log(LogLevel::Info, "media", "%s cannot decode %s: %s", decoder().capabilities().name, stream_.codec.c_str(),
           error.message);
@@ -192,6 +192,7 @@ class FailoverDecoder final : public VideoDecoder {
   }
 
   const std::vector<std::unique_ptr<VideoDecoder>> decoders_;
+  const bool asked_for_;
   std::size_t current_ = 0;
   StreamInfo stream_;
   bool began_anew_ = false;
@@ -208,8 +209,8 @@ class FailoverDecoder final : public VideoDecoder {
 
 }  // namespace
 
-std::unique_ptr<VideoDecoder> makeFailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders) {
-  return std::make_unique<FailoverDecoder>(std::move(decoders));
+std::unique_ptr<VideoDecoder> makeFailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders, bool asked_for) {
+  return std::make_unique<FailoverDecoder>(std::move(decoders), asked_for);
 }
 
 }  // namespace relievo

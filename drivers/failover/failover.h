@@ -16,7 +16,10 @@ namespace relievo {
 // caller gets the failure of the last decoder; `takeRestart` reports all others. A `receive` that meets a failure takes
 // as long as decoding the kept packets again.
 //
+// Missing hardware (NotFound) is said only if it was `asked_for`.
+//
 // Frames outlive their decoder, as with any decoder.
-[[nodiscard]] std::unique_ptr<VideoDecoder> makeFailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders);
+[[nodiscard]] std::unique_ptr<VideoDecoder> makeFailoverDecoder(std::vector<std::unique_ptr<VideoDecoder>> decoders,
+                                                                bool asked_for = false);
 
 }  // namespace relievo

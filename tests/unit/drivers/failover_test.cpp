@@ -111,6 +111,31 @@ TEST_F(Failover, WhatIsDamagedIsCountedOnce) {
   EXPECT_EQ(decoder_->damaged(), 1u);
 }
 
+// Of hardware that is not there.
+class Absent final : public VideoDecoder {
+ public:
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "absent", .max_held_frames = 8}; }
+
+ private:
+  Result<void> openDecoder(const StreamInfo&) override { return fail(ErrorCode::NotFound, "there is no hardware"); }
+  Result<Feed> feedPacket(const Packet&) override { return Feed::Accepted; }
+  Result<Progress> receiveFrame(Frame&) override { return Progress::NeedsPackets; }
+  Result<void> startDrain() override { return {}; }
+  Result<void> flushDecoder() override { return {}; }
+  void closeDecoder() noexcept override {}
+};
+
+TEST_F(Failover, HardwareThatIsNotThereIsToldOnlyIfItWasAskedFor) {
+  for (const bool asked_for : {false, true}) {
+    std::vector<std::unique_ptr<VideoDecoder>> decoders;
+    decoders.push_back(std::make_unique<Absent>());
+    decoders.push_back(makeMockDecoder());
+    decoder_ = makeFailoverDecoder(std::move(decoders), asked_for);
+    ASSERT_TRUE(decoder_->open(source_->streams().at(0)));
+    EXPECT_EQ(decoder_->description(), asked_for ? "mock; no better decoder: there is no hardware" : "mock");
+  }
+}
+
 TEST_F(Failover, HoldsNoMoreThanTheOneThatAllowsLeast) {
   make({{.max_held_frames = 8}, {.max_held_frames = 5}});
   EXPECT_EQ(decoder_->capabilities().max_held_frames, 5);
