@@ -63,24 +63,32 @@ std::uint32_t bit(std::optional<bool> down, unsigned place) RELIEVO_RT {
   return down.value_or(false) ? 1U << place : 0U;
 }
 
-// A wired grip has one `button`, a wireless one has `buttons`.
+// A wired grip has one `button`, a wireless one has `buttons`, whose last state stays when it is out of reach or its
+// battery is empty: these then count as released.
 std::uint32_t readGrip(JsonCursor& json) RELIEVO_RT {
   std::uint32_t down = 0;
+  bool connected = true;
   const auto buttons = [&](std::string_view key) RELIEVO_RT {
     if (key == "a") down |= bit(json.boolean(), 0);
     else if (key == "b") down |= bit(json.boolean(), 1);
     else if (key == "c") down |= bit(json.boolean(), 2);
     else json.skip();
   };
+  const auto state = [&](std::string_view key) RELIEVO_RT {
+    if (key == "button") down |= bit(json.boolean(), 0);
+    else if (key == "buttons") json.object(buttons);
+    else json.skip();
+  };
+  const auto status = [&](std::string_view key) RELIEVO_RT {
+    if (key == "connected") connected = json.boolean().value_or(true);
+    else json.skip();
+  };
   json.object([&](std::string_view key) RELIEVO_RT {
-    if (key != "state") return json.skip();
-    json.object([&](std::string_view field) RELIEVO_RT {
-      if (field == "button") down |= bit(json.boolean(), 0);
-      else if (field == "buttons") json.object(buttons);
-      else json.skip();
-    });
+    if (key == "state") json.object(state);
+    else if (key == "status") json.object(status);
+    else json.skip();
   });
-  return down;
+  return connected ? down : 0;
 }
 
 // `place` counts down to the device that is asked for, if its name is not given.

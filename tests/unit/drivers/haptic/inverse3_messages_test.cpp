@@ -43,11 +43,24 @@ TEST(Inverse3Snapshot, TheDocumentedMessagesOfBothVersionsAreRead) {
   EXPECT_EQ(recent->buttons, 6U);
 }
 
+// Its last state stays in the messages: a button held then would be a clutch that is never released.
+TEST(Inverse3Snapshot, AGripThatIsGoneHasNoButtonDown) {
+  for (const bool connected : {true, false}) {
+    const std::string text =
+        R"({"inverse3":[],"wireless_verse_grip":[{"device_id":"B1","state":{"buttons":{"b":true}},)"
+        R"("status":{"awake":true,"connected":)" +
+        std::string(connected ? "true" : "false") + R"(}},{"state":{"buttons":{"c":true}}}]})";
+    EXPECT_EQ(readSnapshot(text, "")->buttons, connected ? 6U : 4U);
+  }
+}
+
 TEST(Inverse3Snapshot, TheDeviceThatWasAskedForIsRead) {
   const std::string two =
       R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":0.1,"y":0,"z":0}}},)"
       R"({"state":{"cursor_position":{"x":0.2,"y":0,"z":0}},"device_id":"B","status":{"ready":false,"power_supply":false}}]})";
   EXPECT_EQ(readSnapshot(two, "")->id.text(), "A");
+  EXPECT_EQ(readSnapshot(two, "", 1)->id.text(), "B");
+  EXPECT_EQ(readSnapshot(two, "", 2)->id.text(), "");
   const auto second = readSnapshot(two, "B");
   EXPECT_EQ(second->position_m->x, 0.2);
   EXPECT_FALSE(second->ready || second->powered);
