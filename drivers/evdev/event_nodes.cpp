@@ -2,7 +2,9 @@
 // Reads the folder of the input devices.
 #include "drivers/evdev/event_nodes.h"
 
+#include <linux/input.h>
 #include <sys/file.h>
+#include <sys/ioctl.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -54,7 +56,10 @@ std::vector<EventNode> listEventNodes() {
 }
 
 bool takeNode(int fd) noexcept {
-  return ::flock(fd, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;  // without locks it is shared
+  if (::flock(fd, LOCK_EX | LOCK_NB) < 0 && errno == EWOULDBLOCK) return false;  // without locks it is shared
+  if (::ioctl(fd, EVIOCGRAB, 1) < 0) return errno != EBUSY;
+  static_cast<void>(::ioctl(fd, EVIOCGRAB, nullptr));  // it was only a question
+  return true;
 }
 
 bool mayHaveKey(const std::string& path, unsigned code) {

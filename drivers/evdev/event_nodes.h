@@ -20,7 +20,8 @@ struct EventNode {
 // In ascending order of their numbers. Opens nothing. Any thread; not real-time.
 [[nodiscard]] std::vector<EventNode> listEventNodes();
 
-// Takes an open node for one finger until it is closed. False if another finger, or another relievo, has it.
+// Takes an open node for one finger until it is closed. False if another finger, or another relievo, has it, or if
+// another program has grabbed it: all of its events go there, such as those of a mouse whose keys it maps.
 [[nodiscard]] bool takeNode(int fd) noexcept;
 
 // Whether the node's device may have a key, by what sysfs says of it; true where that cannot be read. Does not open the

@@ -24,7 +24,8 @@ constexpr const char* kNoPad =
     "no gamepad, joystick or wheel with force feedback was found; plug one in, or give its path: "
     "gamepad:/dev/input/eventN";
 
-constexpr const char* kTaken = "the gamepad is already a finger; plug in another one, or leave one --haptic out";
+constexpr const char* kTaken =
+    "the gamepad is already a finger, or another program has it for itself; plug in another one, or end that program";
 
 // By its buttons, which sysfs shows to everybody; of other devices it does not matter that they may not be opened.
 bool mayBePad(const std::string& path) {

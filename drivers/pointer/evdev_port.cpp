@@ -22,7 +22,8 @@ constexpr const char* kNoRight =
     "no permission to read the mouse; add the user to the group input (sudo usermod -aG input $USER) and log in "
     "again";
 
-constexpr const char* kTaken = "the mouse is already a finger; plug in another one, or leave one --haptic out";
+constexpr const char* kTaken =
+    "the mouse is already a finger, or another program has it for itself; plug in another one, or end that program";
 
 bool isMouse(int fd) {
   libevdev* device = nullptr;

@@ -124,10 +124,24 @@ TEST_F(PointerEvdev, AMouseIsOneFingerAlone) {
   until(*right, [](const HapticSample& sample) { return std::abs(sample.position_mm.x + 20) < 1e-6; });
   for (const char* path : {"", "/dev/input/event3"}) {
     EXPECT_STREQ(makePointer(path, clock_)->open().error().message,
-                 "the mouse is already a finger; plug in another one, or leave one --haptic out");
+                 "the mouse is already a finger, or another program has it for itself; plug in another one, or end "
+                 "that program");
   }
   left->close();
   EXPECT_TRUE(makePointer("", clock_)->open());
+}
+
+// As those that map keys do, which make up another mouse for what they let through.
+TEST_F(PointerEvdev, AMouseThatAnotherProgramHasForItselfIsPassedOver) {
+  UmockdevMouse first(bed_, 3, UmockdevMouse::mouse());
+  first.letOthersGrab();
+  EXPECT_THAT(makePointer("", clock_)->open().error().message, testing::HasSubstr("another program has it"));
+  UmockdevMouse made_up(bed_, 12, UmockdevMouse::mouse());
+  const auto device = run();
+  EXPECT_FALSE(made_up.isGrabbed());
+  made_up.say(EV_REL, REL_X, 100);
+  made_up.say(EV_SYN, SYN_REPORT, 0);
+  until(*device, [](const HapticSample& sample) { return std::abs(sample.position_mm.x - 10) < 1e-6; });
 }
 
 TEST_F(PointerEvdev, WhatIsNoMouseIsRefused) {

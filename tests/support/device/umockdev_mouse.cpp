@@ -79,8 +79,9 @@ input_absinfo UmockdevMouse::rangeOf(std::size_t axis) const {
 bool UmockdevMouse::grab(UMockdevIoctlClient* client) {
   std::uintptr_t wanted = 0;  // a number for an argument, not a pointer
   std::memcpy(&wanted, umockdev_ioctl_client_get_arg(client)->data, sizeof wanted);
-  grabbed_ = wanted != 0;
-  umockdev_ioctl_client_complete(client, 0, 0);
+  const bool refused = others_grab_ && wanted != 0;
+  if (!refused) grabbed_ = wanted != 0;
+  umockdev_ioctl_client_complete(client, refused ? -1 : 0, refused ? EBUSY : 0);
   return true;
 }
 

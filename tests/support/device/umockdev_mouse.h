@@ -38,6 +38,8 @@ class UmockdevMouse {
   void hold(std::uint16_t key, bool down);
   // Before the device is opened: ABS_Y counts from 0 to `most`, as a wheel's pedal does.
   void setPedal(int most) { pedal_ = most; }
+  // Another program has grabbed it.
+  void letOthersGrab() { others_grab_ = true; }
   [[nodiscard]] bool isGrabbed() const { return grabbed_; }
   // The number of unsupported requests.
   [[nodiscard]] int unknownRequests() const { return unknown_; }
@@ -52,7 +54,7 @@ class UmockdevMouse {
   Codes codes_;
   std::mutex lock_;
   std::vector<std::uint16_t> held_;
-  std::atomic<bool> grabbed_ = false;
+  std::atomic<bool> grabbed_ = false, others_grab_ = false;
   std::atomic<int> pedal_ = 0;
   int unknown_ = 0;
   RequestLoop requests_;
