@@ -32,6 +32,9 @@ constexpr int kFirmReady = 5;      // answers in a row that all say "ready", and
 // Before 3.5 the origin is the base. Published programs for these versions hold the handle here, in m.
 constexpr glm::dvec3 kCentreM{0, -0.15, 0.19};
 
+// Radii of the workspaces, as the maker's programs have them.
+constexpr double kReachMm = 100, kSmallReachMm = 40;
+
 // The service's y points away from the user.
 glm::dvec3 fromService(const glm::dvec3& v) RELIEVO_RT {
   return {v.x, v.z, -v.y};
@@ -61,8 +64,8 @@ class Inverse3 final : public HapticDevice {
   [[nodiscard]] HapticCapabilities capabilities() const noexcept override {
     const double rate_hz = rateWithin(kRateHz, kRateHz);
     return {.name = "Haply Inverse3",
-            .workspace_min_mm = {-100, -100, -100},
-            .workspace_max_mm = {100, 100, 100},
+            .workspace_min_mm = glm::dvec3(-reach_mm_),
+            .workspace_max_mm = glm::dvec3(reach_mm_),
             .peak_force_n = 10,
             .continuous_force_n = 3,
             .max_stiffness_n_per_mm = stiffnessAtRate(kStiffnessNPerMm, kRateHz, rate_hz),
@@ -85,6 +88,7 @@ class Inverse3 final : public HapticDevice {
                   "the Haply Inverse service runs, but finds no Inverse3; plug it in and switch it on");
     if (!inventory->powered) return fail(ErrorCode::NotFound, "the Inverse3 has no power; plug in its power supply");
     id_ = inventory->id;
+    reach_mm_ = inventory->small ? kSmallReachMm : kReachMm;
     message_.setDevice(id_.text(), inventory->from_3_5);
     centre_m_ = inventory->from_3_5 ? glm::dvec3(0) : kCentreM;
     return inventory->from_3_5 ? greet() : Result<void>{};
@@ -232,6 +236,7 @@ class Inverse3 final : public HapticDevice {
   TakenArm arm_;
   DeviceId id_;
   glm::dvec3 centre_m_{0};
+  double reach_mm_ = kReachMm;
   HapticSample sample_;
   MonotonicTime measured_;  // not earlier than this
   int unlisted_ = 0;        // answers in a row without this device

@@ -27,6 +27,8 @@ struct Inverse3Config {
 // process ends, the kernel ends the connection, and the service, which applies no force for longer than it is asked to,
 // lets the device go.
 //
+// The workspace is the Inverse3's, or that of a Minverse at the same service.
+//
 // Frame: x right, y up, z toward the user, origin in the middle of the workspace.
 [[nodiscard]] std::unique_ptr<HapticDevice> makeInverse3(const Inverse3Config& config,
                                                          std::unique_ptr<inverse3::Wire> wire, Clock& clock);

@@ -35,14 +35,19 @@ std::optional<glm::dvec3> readPosition(JsonCursor& json) RELIEVO_RT {
 struct Arm {
   DeviceId id;
   std::optional<glm::dvec3> position_m;
-  bool powered = true, ready = true, from_3_5 = false;
+  bool powered = true, ready = true, from_3_5 = false, small = false;
 };
 
 Arm readArm(JsonCursor& json) RELIEVO_RT {
   Arm arm;
   json.object([&](std::string_view key) RELIEVO_RT {
     if (key == "device_id") arm.id = DeviceId(json.string().value_or(""));
-    else if (key == "state") {
+    else if (key == "config") {
+      json.object([&](std::string_view field) RELIEVO_RT {
+        if (field == "type") arm.small = json.string() == "minverse";
+        else json.skip();
+      });
+    } else if (key == "state") {
       json.object([&](std::string_view field) RELIEVO_RT {
         arm.from_3_5 = arm.from_3_5 || field == "control_mode";
         if (field == "cursor_position") arm.position_m = readPosition(json);
@@ -98,6 +103,7 @@ void take(const Arm& arm, std::string_view wanted, int& place, Snapshot& to) REL
   if (!good || (wanted.empty() ? place-- > 0 : arm.id.text() != wanted)) return;
   to.id = arm.id;
   to.position_m = arm.position_m;
+  to.small = arm.small;
   to.powered = arm.powered;
   to.ready = arm.ready;
 }

@@ -31,6 +31,7 @@ struct Snapshot {
   bool of_3_0 = false;                   // lists them in the older form, by name, as the service does on port 10000
   DeviceId id;                           // of the Inverse3 that was asked for; empty if it is not listed
   std::optional<glm::dvec3> position_m;  // the service's frame: x right, y forward, z up
+  bool small = false;                    // a Minverse; known from messages with the configuration, such as the first
   bool powered = true, ready = true;     // unless the service says otherwise
   std::uint32_t buttons = 0;             // of any grip: a, b, c are the bits 0, 1, 2
 };

@@ -261,7 +261,8 @@ std::string Inverse3Service::armText(const std::string& name, MonotonicTime now,
   const bool modern = version_ == Version::V3_5;
   std::string text = std::string(R"({"device_id":")") + name + "\",";
   if (whole) {
-    text += R"("config":{"type":"inverse3","device_info":{"minor_version":1,"major_version":7,"id":"049D","model":4,)"
+    text += R"("config":{"type":")" + type +
+            R"(","device_info":{"minor_version":1,"major_version":7,"id":"049D","model":4,)"
             R"("uuid":"2D35F80DD9005F599B68F49944CB04BA"},"port":"COM13","gravity_compensation":{"enabled":true,)"
             R"("scaling_factor":1},"handedness":"right","torque_scaling":{"enabled":true})";
     if (modern) text += R"(,"preset":"defaults","basis":{"permutation":"XYZ"},"filters":{"force_gate":{"gain":0.3}})";

@@ -42,7 +42,8 @@ class Inverse3Service {
   std::function<glm::dvec3(double t_s)> hand = [](double) { return glm::dvec3(0); };
   bool running = true, plugged = true, powered = true, ready = true, deaf = false;
   std::string id = "049D", listed_before;  // its arm; another one, if it is not empty
-  bool comes_back = false;                 // it runs again when it is connected to
+  std::string type = "inverse3";
+  bool comes_back = false;  // it runs again when it is connected to
   bool button_a = false, button_b = false, wired_button = false;
   ServiceFaults faults;
 

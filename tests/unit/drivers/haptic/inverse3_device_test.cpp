@@ -34,6 +34,17 @@ TEST_P(Inverse3Device, TheFingerIsWhereTheHandIs) {
   EXPECT_EQ(bench.service.profile(), GetParam() == Version::V3_5 ? "relievo" : "");
 }
 
+TEST_P(Inverse3Device, AMinverseReachesLessFar) {
+  for (const auto& [type, reach_mm] : {std::pair("inverse3x", 100.0), {"minverse", 40.0}, {"inverse3", 100.0}}) {
+    bench.service.type = type;
+    ASSERT_TRUE(bench.bringUp());
+    ASSERT_TRUE(bench.tick());
+    EXPECT_EQ(bench.device->capabilities().workspace_min_mm, glm::dvec3(-reach_mm)) << type;
+    EXPECT_EQ(bench.device->capabilities().workspace_max_mm, glm::dvec3(reach_mm)) << type;
+    bench.device->close();
+  }
+}
+
 TEST_P(Inverse3Device, OneMessageIsExchangedATick) {
   ASSERT_TRUE(bench.bringUp());
   const int before = bench.service.messages();
