@@ -140,7 +140,9 @@ Rig polhem(ManualClock& clock, bool loses) {
 
 // The driver on an emulator of the maker's service.
 Rig inverse3(ManualClock& clock, bool loses) {
+  static int arms = 0;
   auto service = std::make_shared<test::Inverse3Service>(test::Inverse3Service::Version::V3_5);
+  service->id = "arm" + std::to_string(++arms);  // one arm is one device's
   auto wire = std::make_unique<test::EmulatedWire>(*service, clock);
   auto& own = *wire;
   auto device = makeInverse3({.watchdog_thread = false}, std::move(wire), clock);
