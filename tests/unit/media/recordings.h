@@ -7,8 +7,8 @@
 
 #include "app/media/pair_reader.h"
 #include "app/scene/height_field.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
 
@@ -23,9 +23,6 @@ using test::photoOf;
 using test::yuvCode;
 
 inline constexpr DisplayVolume kVolume{160, 108, 40};
-inline const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
-                                          [](const StreamInfo&) { return makeFfmpegDecoder(); }};
-
 inline ClipTrack photo(int frames = 2) {
   ClipTrack track{.pix_fmt = "yuv444p", .width = kSceneCols, .height = kSceneRows, .frames = frames};
   track.sample = [](int k, int c, int r, int) { return yuvCode(k, photoOf(c, r)); };

@@ -5,17 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "app/media/pair_reader.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/mock/mock.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 
 namespace relievo {
 
 using test::ClipTrack;
 using test::sampleAt;
-
-inline const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
-                                          [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 // Every sample of frame k is k, so that a picture identifies its frame.
 inline std::uint32_t frameNumber(int /*component*/, int /*column*/, int /*row*/, int frame) {

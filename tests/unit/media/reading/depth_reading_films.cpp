@@ -8,8 +8,8 @@
 
 #include "app/media/pair_reader.h"
 #include "app/scene/height_field.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/recorded_scene.h"
 
 namespace relievo {
@@ -21,9 +21,6 @@ using test::makeClip;
 using test::TemporaryFolder;
 
 constexpr DisplayVolume kVolume{160, 108, 40};
-
-const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
-                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 std::uint32_t yuv(int k, double red, double green, double blue) {
   return test::yuvCode(k, {red, green, blue});

@@ -13,8 +13,8 @@
 #include "app/media/pair_reader.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/scene/height_field.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 
 namespace relievo {
 namespace {
@@ -23,9 +23,6 @@ using test::ClipTrack;
 using test::makeClip;
 using test::TemporaryFolder;
 using Rgb = std::array<double, 3>;
-
-const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
-                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 constexpr int kCols = 160, kRows = 112;
 constexpr DisplayVolume kUnit{160, 112, 1};

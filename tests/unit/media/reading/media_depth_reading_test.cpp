@@ -13,9 +13,9 @@
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/picture_look.h"
 #include "app/scene/height_field.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/recorded_scene.h"
 
 namespace relievo {
@@ -37,9 +37,6 @@ using testing::Not;
 
 constexpr DisplayVolume kVolume{160, 108, 40};
 constexpr int kCols = test::kSceneCols, kRows = test::kSceneRows;
-
-const PairReader::Backends kFfmpeg{[](const std::string&) { return makeFfmpegSource(); },
-                                   [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 // A 16-bit picture with code(mm) for each distance.
 template <class Code>
