@@ -17,6 +17,7 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/control_client.h"
 #include "tests/support/machine/process.h"
+#include "tests/support/machine/until.h"
 #include "tests/support/machine/x_screen.h"
 
 namespace relievo {
@@ -100,13 +101,6 @@ class PlayerHabits : public testing::Test {
     return text.str();
   }
   [[nodiscard]] json status() { return control_->ask("status"); }
-  static bool until(const std::function<bool()>& so) {
-    for (int tries = 0; tries < 2000; ++tries) {
-      if (so()) return true;
-      std::this_thread::sleep_for(10ms);
-    }
-    return false;
-  }
   // A key, "Shift_L+slash", and what the player then says of itself.
   void press(const std::string& keys) const {
     const std::size_t plus = keys.find('+');
@@ -122,7 +116,7 @@ class PlayerHabits : public testing::Test {
       if (value.is_number() && last.is_number()) return std::abs(last.get<double>() - value.get<double>()) < 0.25e-1;
       return last == value;
     };
-    EXPECT_TRUE(until(is)) << keys << ": " << what << " is " << last << " instead of " << value;
+    EXPECT_TRUE(test::until(is)) << keys << ": " << what << " is " << last << " instead of " << value;
   }
   void expectPlace(const std::string& keys, double seconds) {
     press(keys);
@@ -132,7 +126,7 @@ class PlayerHabits : public testing::Test {
       last = now["position_s"].get<double>();
       return now["state"] == "paused" && std::abs(last - seconds) < 0.21;
     };
-    EXPECT_TRUE(until(is)) << keys << ": at " << last << " s instead of " << seconds;
+    EXPECT_TRUE(test::until(is)) << keys << ": at " << last << " s instead of " << seconds;
   }
   using Color = std::array<int, 3>;
   [[nodiscard]] Color at(int x, int y) const { return screen_->pixel(place_.x + x, place_.y + y); }
@@ -165,16 +159,16 @@ class PlayerHabits : public testing::Test {
 };
 
 void PlayerHabits::aQuietFilmLeavesTheSoundCardToOthers() {
-  EXPECT_TRUE(until([&] { return status()["state"] == "playing"; })) << said();
+  EXPECT_TRUE(test::until([&] { return status()["state"] == "playing"; })) << said();
   EXPECT_FALSE(player_->holds(folder_ / "sound.raw"));
-  EXPECT_TRUE(until([&] { return isFilm(at(40, 120)); }));
+  EXPECT_TRUE(test::until([&] { return isFilm(at(40, 120)); }));
 }
 
 void PlayerHabits::theNextFilmHasSound() {
   press("n");
-  EXPECT_TRUE(until([&] { return player_->holds(folder_ / "sound.raw"); })) << said();
+  EXPECT_TRUE(test::until([&] { return player_->holds(folder_ / "sound.raw"); })) << said();
   show("A film - relievo");
-  EXPECT_TRUE(until([&] { return status()["state"] == "playing"; }));
+  EXPECT_TRUE(test::until([&] { return status()["state"] == "playing"; }));
 }
 
 void PlayerHabits::pauseStepAndSeek() {
@@ -200,14 +194,14 @@ void PlayerHabits::chapters() {
 
 void PlayerHabits::soundAndVolume() {
   expectAfter("0", "volume", 105);
-  EXPECT_TRUE(until([&] { return isAccent(at(20, static_cast<int>(85 * kRow))); })) << "the level's bar";
+  EXPECT_TRUE(test::until([&] { return isAccent(at(20, static_cast<int>(85 * kRow))); })) << "the level's bar";
   expectAfter("9", "volume", 100);
   expectAfter("m", "muted", true);
   expectAfter("m", "muted", false);
   screen_->moveMouse(place_.x + 160, place_.y + 80);
   for (const unsigned wheel : {4U, 5U}) {
     click(wheel);
-    EXPECT_TRUE(until([&] { return status()["volume"] == (wheel == 4 ? 105 : 100); })) << "the wheel";
+    EXPECT_TRUE(test::until([&] { return status()["volume"] == (wheel == 4 ? 105 : 100); })) << "the wheel";
   }
   EXPECT_THAT(status()["audio"].get<std::string>(), StartsWith("1 of 2"));
   expectAfter("Shift_L+3", "audio", "2 of 2, deu");  // #
@@ -217,13 +211,13 @@ void PlayerHabits::soundAndVolume() {
 
 void PlayerHabits::subtitles() {
   expectAfter("v", "subtitles", "off");
-  EXPECT_TRUE(until([&] { return !hasWords(150, 185); }));
+  EXPECT_TRUE(test::until([&] { return !hasWords(150, 185); }));
   expectAfter("v", "subtitles", "1 of 2, de, film.de.srt");
-  EXPECT_TRUE(until([&] { return hasWords(150, 185); })) << "above the bar of the paused film";
+  EXPECT_TRUE(test::until([&] { return hasWords(150, 185); })) << "above the bar of the paused film";
   expectAfter("v", "subtitles", "off");
   expectAfter("j", "subtitles", "1 of 2, de, film.de.srt");  // what was hidden, before the next
   expectAfter("j", "subtitles", "2 of 2, en, film.en.srt");
-  EXPECT_TRUE(until([&] { return hasWords(150, 185); }));
+  EXPECT_TRUE(test::until([&] { return hasWords(150, 185); }));
   expectAfter("z", "subtitle_delay_s", -0.1);
   expectAfter("x", "subtitle_delay_s", 0);
   expectAfter("Shift_L+g", "subtitle_size", 1.1);
@@ -237,7 +231,7 @@ void PlayerHabits::subtitles() {
 void PlayerHabits::picture() {
   EXPECT_TRUE(isFilm(at(kWidth - 30, 4)));
   expectAfter("a", "aspect", "16:9");
-  EXPECT_TRUE(until([&] { return at(kWidth - 30, 4)[0] < 30; })) << "black above a wide picture";
+  EXPECT_TRUE(test::until([&] { return at(kWidth - 30, 4)[0] < 30; })) << "black above a wide picture";
   for (const char* word : {"4:3", "2.35:1", "film"}) expectAfter("a", "aspect", word);
   expectAfter("e", "zoom", 1.1);
   expectAfter("w", "zoom", 1);
@@ -246,11 +240,11 @@ void PlayerHabits::picture() {
   expectAfter("k", "depth_strength", 0.9);  // of the viewer's own table
   EXPECT_EQ(control_->ask("layout mono")["ok"], true);
   press("s");
-  EXPECT_TRUE(until([&] { return std::filesystem::exists(folder_ / "relievo-film-0001.png"); }));
+  EXPECT_TRUE(test::until([&] { return std::filesystem::exists(folder_ / "relievo-film-0001.png"); }));
   for (int k = 0; k < 2; ++k) click(1);
-  EXPECT_TRUE(until([&] { return status()["full_screen"] == true; })) << "a double click";
+  EXPECT_TRUE(test::until([&] { return status()["full_screen"] == true; })) << "a double click";
   expectAfter("Escape", "full_screen", false);
-  EXPECT_TRUE(until([&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width == kWidth; }));
+  EXPECT_TRUE(test::until([&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width == kWidth; }));
   show("A film - relievo");
 }
 
@@ -270,16 +264,16 @@ void PlayerHabits::pages() {
   };
   for (const char* away : {"Shift_L+slash", "Escape", "h"}) {
     press(std::string(away) == "Escape" ? "F1" : "Shift_L+slash");
-    EXPECT_TRUE(until(covered)) << "the page of keys";
+    EXPECT_TRUE(test::until(covered)) << "the page of keys";
     EXPECT_TRUE(leaves(away)) << away;
   }
   EXPECT_EQ(status()["state"], "paused") << "no key of the page has ended the film";
   mouseOnThePage();
   const auto figures = [&] { return at(265, static_cast<int>(200 * kRow))[0] < 120; };  // the ground of their page
   press("i");
-  EXPECT_TRUE(until(figures)) << "statistics";
+  EXPECT_TRUE(test::until(figures)) << "statistics";
   press("i");
-  EXPECT_TRUE(until([&] { return !figures(); }));
+  EXPECT_TRUE(test::until([&] { return !figures(); }));
 }
 
 // The wheel turns the pages, a click closes them; the sound stays as it is.
@@ -287,15 +281,15 @@ void PlayerHabits::mouseOnThePage() {
   const auto shown = [&] { return screen_->pixels(place_.x, place_.y, kWidth, kHeight); };
   screen_->moveMouse(place_.x + 160, place_.y + 80);
   press("F1");
-  EXPECT_TRUE(until([&] { return at(kWidth - 4, 4)[0] < 60; }));
+  EXPECT_TRUE(test::until([&] { return at(kWidth - 4, 4)[0] < 60; }));
   const auto first = shown();
   for (const unsigned wheel : {5U, 4U}) {
     click(wheel);
-    EXPECT_TRUE(until([&] { return (shown() == first) == (wheel == 4); })) << wheel;
+    EXPECT_TRUE(test::until([&] { return (shown() == first) == (wheel == 4); })) << wheel;
     EXPECT_EQ(status()["volume"], 100);
   }
   click(1);
-  EXPECT_TRUE(until([&] { return isFilm(at(kWidth - 4, 4)); })) << "a click";
+  EXPECT_TRUE(test::until([&] { return isFilm(at(kWidth - 4, 4)); })) << "a click";
   EXPECT_EQ(status()["state"], "paused");
 }
 
@@ -305,25 +299,25 @@ void PlayerHabits::speedAndLoop() {
   expectAfter("bracketright", "rate", 1);
   expectAfter("bracketright", "rate", 2);
   expectAfter("BackSpace", "rate", 1);
-  EXPECT_TRUE(until([&] { return status()["state"] == "playing"; }));
+  EXPECT_TRUE(test::until([&] { return status()["state"] == "playing"; }));
   press("l");
-  EXPECT_TRUE(until([&] { return status()["loop_from_s"].is_number(); }));
+  EXPECT_TRUE(test::until([&] { return status()["loop_from_s"].is_number(); }));
   std::this_thread::sleep_for(300ms);  // its end lies after its beginning
   press("l");
-  EXPECT_TRUE(until([&] { return status()["loop_to_s"].is_number(); }));
+  EXPECT_TRUE(test::until([&] { return status()["loop_to_s"].is_number(); }));
   const auto seconds = [&](const char* what) {
     const json value = status()[what];
     return value.is_number() ? value.get<double>() : 0.0;
   };
   const double from = seconds("loop_from_s"), to = seconds("loop_to_s");
   EXPECT_GT(to, from);
-  EXPECT_TRUE(until([&] { return seconds("position_s") < to - 0.1; })) << "again from its beginning";
+  EXPECT_TRUE(test::until([&] { return seconds("position_s") < to - 0.1; })) << "again from its beginning";
   expectAfter("l", "loop_from_s", nullptr);
 }
 
 void PlayerHabits::aFileIsDropped() {
   ASSERT_TRUE(screen_->drop(window_, folder_ / "dropped.mkv"));
-  EXPECT_TRUE(until([&] { return status()["source"] == folder_ / "dropped.mkv"; })) << status();
+  EXPECT_TRUE(test::until([&] { return status()["source"] == folder_ / "dropped.mkv"; })) << status();
   show("dropped.mkv - relievo");
 }
 

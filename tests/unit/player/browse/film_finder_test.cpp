@@ -7,14 +7,13 @@
 
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/machine/until.h"
 
 namespace relievo {
 namespace {
 
-using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
@@ -81,22 +80,13 @@ TEST_F(Films, AreAtMostAThousand) {
   EXPECT_THAT(filmsBelow(folder_ / "absent"), IsEmpty());
 }
 
-template <class Condition>
-bool until(Condition so) {
-  for (int tries = 0; tries < 4000; ++tries) {
-    if (so()) return true;
-    std::this_thread::sleep_for(5ms);
-  }
-  return false;
-}
-
 TEST_F(Films, TheFinderTellsNewsOnceAndForgetsPlacesThatWent) {
   file("a/1.mkv");
   file("b/2.mkv");
   FilmFinder finder;
   EXPECT_FALSE(finder.hasNews());
   finder.look({folder_ / "a", folder_ / "b"}, {folder_ / "a/1.mkv", folder_ / "gone.mkv"});
-  ASSERT_TRUE(until([&] {
+  ASSERT_TRUE(test::until([&] {
     return finder.filmsIn(folder_ / "a").size() == 1 && finder.filmsIn(folder_ / "b").size() == 1 &&
            finder.there().size() == 1;
   }));

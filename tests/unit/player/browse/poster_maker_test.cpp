@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "drivers/mock/mock.h"
+#include "tests/support/machine/until.h"
 
 namespace relievo {
 namespace {
@@ -64,13 +65,6 @@ class Posters : public testing::Test {
               return fail(ErrorCode::NotFound, "no text");
             }};
   }
-  static bool until(const std::function<bool()>& so) {
-    for (int tries = 0; tries < 4000; ++tries) {
-      if (so()) return true;
-      std::this_thread::sleep_for(5ms);
-    }
-    return false;
-  }
   std::map<std::string, MockMediaProfile> films_{{"a", film(0)}, {"late", film(15)}};
   std::atomic<int> opened_{0};
   MonotonicClock clock_;
@@ -80,7 +74,7 @@ TEST_F(Posters, AreMadeOfAPictureThatTellsSomethingWithTheFilmsLength) {
   PosterMaker maker(backends(), {});
   EXPECT_EQ(maker.find("late"), nullptr);
   maker.wish({{"late", ""}, {"absent", ""}});
-  ASSERT_TRUE(until([&] { return maker.find("absent") != nullptr; }));
+  ASSERT_TRUE(test::until([&] { return maker.find("absent") != nullptr; }));
   EXPECT_TRUE(maker.attend());
   EXPECT_FALSE(maker.attend());
   const auto late = maker.find("late");
@@ -96,7 +90,7 @@ TEST_F(Posters, AreMadeOfAPictureThatTellsSomethingWithTheFilmsLength) {
 TEST_F(Posters, AreMadeOnceAndOnlyOnWish) {
   PosterMaker maker(backends(), {});
   maker.wish({{"a", ""}});
-  ASSERT_TRUE(until([&] { return maker.find("a") != nullptr; }));
+  ASSERT_TRUE(test::until([&] { return maker.find("a") != nullptr; }));
   const int opened = opened_;
   maker.wish({{"a", ""}});
   maker.wish({});
@@ -118,8 +112,8 @@ TEST_F(Posters, OneThatHangsIsLeftForTheNext) {
   films_["hangs"].stall = 1h;
   PosterMaker maker(backends(), {});
   maker.wish({{"hangs", ""}});
-  ASSERT_TRUE(until([&] { return opened_ > 0; }));
-  EXPECT_TRUE(until([&] {
+  ASSERT_TRUE(test::until([&] { return opened_ > 0; }));
+  EXPECT_TRUE(test::until([&] {
     maker.wish({{"a", ""}});
     return maker.find("a") != nullptr;
   }));
