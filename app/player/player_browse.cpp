@@ -65,7 +65,8 @@ void Player::closeBrowser() {
   if (!screen_.text().hasList()) return;
   browser_->close();
   screen_.text().setList(std::nullopt);
-  screen_.text().hideKeys();  // they are the list's
+  screen_.text().hideKeys();       // they are the list's
+  screen_.text().forgetWarning();  // of a film that could not be played
 }
 
 void Player::followBrowser(MonotonicTime now) {

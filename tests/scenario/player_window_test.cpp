@@ -93,27 +93,33 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
                                       "opening", "buffering", "playing", "idle"}));
 }
 
-// Double-clicked in a file manager: nobody reads the terminal. The view is 1280 units wide and 720 high.
+// Double-clicked in a file manager: nobody reads the terminal.
 TEST_F(PlayerWindow, WhyNoFilmCanBePlayedIsShownInTheListOfFilms) {
   std::ofstream(folder_ / "broken.mkv") << "no film";
   for (const char* const name : {"absent.mkv", "broken.mkv"}) {
     Process player({RELIEVO_BIN_DIR "/relievo", "--from-desktop", folder_ / name, "--films",
-                    std::filesystem::path(folder_ / "x").parent_path(), "--report", folder_ / "r.json"},
+                    std::filesystem::path(folder_ / "x").parent_path(), "--loop", "--size", "320x240", "--report",
+                    folder_ / "r.json"},
                    folder_ / "said.txt");
     window_ = screen_->find("relievo");
     ASSERT_NE(window_, 0u) << textOf("said.txt");
     place_ = screen_->place(window_).value_or(XScreen::Place{});
     screen_->focus(window_);
-    const auto warns = [&] {  // in the colour of warnings
-      const std::vector<std::array<int, 3>> foot =
-          screen_->pixels(place_.x, place_.y + place_.height * 3 / 4, place_.width, place_.height / 5);
-      return std::ranges::any_of(foot, [](const auto& pixel) { return pixel[0] > pixel[2] + 100; });
+    const auto warns = [&](int from, int to) {  // in the colour of warnings, in these rows
+      const auto pixels = screen_->pixels(place_.x, place_.y + from, kWidth, to - from);
+      return std::ranges::any_of(pixels, [](const auto& pixel) { return pixel[0] > pixel[2] + 60; });
     };
-    EXPECT_TRUE(until(warns)) << name;
+    EXPECT_TRUE(until([&] { return warns(180, 225); })) << name;
+    screen_->tap("End");  // behind broken.mkv
+    screen_->tap("Return");
+    EXPECT_TRUE(until([&] { return shows(); }));
+    std::this_thread::sleep_for(500ms);
+    EXPECT_FALSE(warns(0, 150)) << "it was told of another film";
     screen_->tap("q");
     EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
     EXPECT_THAT(textOf("said.txt"), testing::HasSubstr(std::string(name) + ": "));
-    EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "fault", "idle", "browsing", "idle"}));
+    EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "fault", "idle", "browsing", "opening", "buffering",
+                                        "playing", "idle"}));
   }
 }
 
