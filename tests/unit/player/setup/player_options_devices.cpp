@@ -78,6 +78,10 @@ TEST(Options, WithoutAFilmAWindowAndAScreenShowTheListOfFilms) {
   EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "--films", "/b"}),
             (std::vector<std::string>{"/a", "/b"}));
   EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "film.mkv"}), none) << "it has its film";
+  EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "--from-desktop", "film.mkv"}),
+            (std::vector<std::string>{"/a"}))
+      << "if the film cannot be played";
+  EXPECT_EQ(folders(machineWith(false, false), {"--from-desktop", "film.mkv"}), none) << "cannot be seen off screen";
   EXPECT_EQ(folders(machineWith(true, false), {"--films", "/a", "film.mkv", "--control", "/run/r"}),
             (std::vector<std::string>{"/a"}))
       << "a box shows it after its film";
