@@ -87,7 +87,9 @@ TEST_F(PlayerProgram, PlaysWithoutASoundCardAndSaysSoOnce) {
   const auto result = play(at("film.mkv") + " --audio alsa:nothing --report " + at("r.json"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("no such sound card"));
-  EXPECT_EQ(reportOf("r.json")["faults"].size(), 1u);
+  const json faults = reportOf("r.json")["faults"];  // a busy machine has others, such as late ticks
+  const auto of_sound = [](const json& fault) { return fault["what"].get<std::string>().starts_with("sound"); };
+  EXPECT_EQ(std::count_if(faults.begin(), faults.end(), of_sound), 1);
 }
 
 TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
@@ -110,7 +112,7 @@ TEST_F(PlayerProgram, PlaysColorAndDepthOfDifferentLengthRateAndOddSizes) {
 
 TEST_F(PlayerProgram, ObeysAScriptedRemote) {
   makeClip(at("film.mkv"), {color(600), depth(600)});
-  std::ofstream(at("keys.txt")) << "1.0 FORWARD\n1.3 PAUSE\n1.6 REWIND\n1.9 PLAY\n2.0 3D_MODE\n2.3 STOP\n";
+  std::ofstream(at("keys.txt")) << "4.0 FORWARD\n4.3 PAUSE\n4.6 REWIND\n4.9 PLAY\n5.0 3D_MODE\n5.3 STOP\n";
   const auto result = play(at("film.mkv") + " --remote script:" + at("keys.txt") + " --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
@@ -202,7 +204,7 @@ TEST_F(PlayerProgram, PlaysRealFootage) {
   const std::string cup = std::string(RELIEVO_TEST_DATA) + "/cup/";
   if (!fs::exists(cup + "color_output.webm")) GTEST_SKIP() << "no real footage at " << cup;
   const auto result =
-      play(cup + "color_output.webm --depth " + cup + "depth_output.webm --duration 1.5 --report " + at("r.json"));
+      play(cup + "color_output.webm --depth " + cup + "depth_output.webm --duration 5 --report " + at("r.json"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json r = reportOf("r.json");
   EXPECT_EQ(r["video"]["pairs_mismatched"], 0);
@@ -230,10 +232,10 @@ TEST_F(PlayerProgram, AfterAKillItGoesOnWhereItWas) {
   }
   ASSERT_GE(left_s, 3);
   EXPECT_FALSE(fs::exists(at("t.csv"))) << "half written";
-  const auto again = play(at("film.mkv") + " --resume --duration 2 --report " + at("r.json"));
+  const auto again = play(at("film.mkv") + " --resume --duration 5 --report " + at("r.json"));
   EXPECT_EQ(again.exit_code, 0) << again.err;
   const double shown_s = reportOf("r.json")["media_s"].get<double>();
-  EXPECT_NEAR(kept(), left_s + shown_s, 0.1);
+  EXPECT_NEAR(kept(), left_s + shown_s, 0.5);  // from the beginning it would be 3 s and more
   ::unsetenv("XDG_STATE_HOME");
 }
 
