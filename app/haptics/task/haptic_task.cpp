@@ -8,8 +8,9 @@
 namespace relievo {
 namespace {
 
-// How long the film may run past its newest frame before the feed counts as stale: one and a half times the last
-// period, and at least this, so that a late frame of a slow film is not taken for a loss.
+// How long the surface may run past its newest frame before the feed counts as stale: one and a half times the last
+// period, and at least this, so that a late frame of a slow film is not taken for a loss. A surface that is carried
+// forward in time runs that much behind the film.
 constexpr Duration kLeastGrace = std::chrono::milliseconds(50);
 
 bool isStale(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
@@ -17,7 +18,7 @@ bool isStale(const SurfaceWindow& window, MediaTime now) RELIEVO_RT {
   const auto newest = static_cast<std::size_t>(window.count - 1);
   Duration grace = kLeastGrace;
   if (newest > 0) grace = std::max(grace, 3 * (window.frames[newest].time - window.frames[newest - 1].time) / 2);
-  return now > window.frames[newest].time + grace;
+  return now - window.carried > window.frames[newest].time + grace;
 }
 
 void raise(std::atomic<double>& highest, double value) RELIEVO_RT {

@@ -35,20 +35,22 @@ class HapticTaskTest : public testing::Test {
     }
     publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = rate}, ended);
   }
-  void publish(const std::vector<Frame>& frames, const ClockSample& clock, bool ended = false) {
+  void publish(const std::vector<Frame>& frames, const ClockSample& clock, bool ended = false,
+               Duration carried = Duration(0)) {
     SurfaceWindow& w = task_->windowToFill();
     w = test::makeWindow(frames, kVolume);
     w.clock = clock;
     w.ended = ended;
+    w.carried = carried;
     task_->publishWindow();
   }
   // How many ticks pass until the feed counts as late, when the film begins now and has these frames.
-  int ticksUntilLate(std::initializer_list<double> times_s) {
+  int ticksUntilLate(std::initializer_list<double> times_s, Duration carried = Duration(0)) {
     std::vector<Frame> frames;
     for (const double t : times_s) {
       frames.push_back(test::makeReliefFrame(40, 30, kVolume, mediaTime(t), [](double, double) { return 20.0; }));
     }
-    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = 1});
+    publish(frames, {.media = {}, .monotonic = clock_.now(), .rate = 1}, false, carried);
     for (int ticks = 1; ticks < 2000; ++ticks) {
       tick();
       const auto told = faults();

@@ -133,6 +133,11 @@ TEST_F(HapticTaskTest, AFeedIsLateWhenAFrameAndAHalfAreMissingAndNotSoonerThanIn
   EXPECT_EQ(ticksUntilLate({0, 0.2}), 200 + 301);
 }
 
+// Frames of a live film come as late as it is carried forward, without being missed.
+TEST_F(HapticTaskTest, AFeedThatIsCarriedForwardIsLateByThatMuchLater) {
+  EXPECT_EQ(ticksUntilLate({0, 0.01}, 30ms), 10 + 30 + 51);
+}
+
 // The film's clock has run past the newest frame and then stops: the surface is that of the newest frame.
 TEST_F(HapticTaskTest, AFilmThatIsPausedWhileItsDepthIsLateIsTouchableAgain) {
   publishPlane(20);
