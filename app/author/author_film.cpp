@@ -18,7 +18,7 @@
 namespace relievo {
 namespace {
 
-constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes; cut the film there"};
+constexpr Error kOtherSize{ErrorCode::Unsupported, 0, "the picture size changes; split the film there"};
 constexpr Error kCancelled{ErrorCode::Cancelled, 0, "interrupted; nothing was written"};
 
 // Interrupts a reader that waits for a disk or a network when the program is to stop.

@@ -164,13 +164,13 @@ void addEnhanceOptions(CLI::App& app, OutputOptions& output) {
        {"median", Enhancement::Median},
        {"dibm", Enhancement::Dibm},
        {"space-time", Enhancement::SpaceTime}},
-      "Remove a sensor's noise and holes from the depth\nmedian: fill narrow holes, then the median of 5 x 5 samples; "
-      "dibm: then each picture as a\nsmoothed mesh of few points; space-time: after the median, smoothing "
-      "over five pictures and a few\nsamples. Edges stay in place");
+      "Remove a sensor's noise and holes from the depth\nmedian: fills narrow holes, then takes the median of 5 x 5 "
+      "samples;\ndibm (depth-image-based modelling): as median, then replaces each picture by a smoothed mesh of few "
+      "points;\nspace-time: as median, then smooths over five pictures and a few samples.\nEdges stay in place");
   app.add_option(
          "--preview", output.preview,
          "Write a PNG that shows the result: colour, depth before and after as lit reliefs, and below them the\n"
-         "heights along the marked line, before in orange, after in blue, one grid line per mm")
+         "heights along the line in them, the row of the highest relief: before orange, after blue, a grid line per mm")
       ->type_name("PNG");
 }
 

@@ -163,13 +163,13 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
       "sbs: one picture, colour left, depth right; tb: colour on top, depth below; ..-depth-first: the other way "
       "round; alpha: in its alpha channel;\ndepth-alone: the picture is depth, without colour;\n"
       "stereo-sbs, stereo-tb, stereo-tracks: two views without depth; the left eye's is on the left, on top, or in the "
-      "first of two tracks; each eye is shown its own");
+      "first of two tracks; each eye sees its own view");
   addChoice(app, "--depth-code", source.depth_code, depthCodes(),
             "How depth is coded\n"
             "auto: hue if half of the picture is pure colour, else luma; luma: as brightness; hue: from red (near) "
-            "through the colours back to red (far), RealSense's and Record3D's hues too;\n"
-            "others: colour maps; spectral: from blue to red, ylgnbu: from yellow to blue, kinect: black (no depth), "
-            "blue, cyan, white");
+            "through yellow, green, blue and magenta to almost red (far), RealSense's and Record3D's hues too;\n"
+            "the other words name colour maps; spectral: from blue to red, ylgnbu: from yellow to blue, kinect: black "
+            "(no depth), blue, cyan, white");
   app.add_option_function<std::vector<std::string>>(
          "--calibration",
          [&source](const std::vector<std::string>& given) {
@@ -180,8 +180,8 @@ void addDepthOptions(CLI::App& app, SourceOptions& source) {
          "polarity=near-high|near-low, range=full|limited, bits=8..16,\n"
          "codes=LOW-HIGH: the range of codes in use, if not all;\n"
          "invalid=CODE+CODE+LOW-HIGH..|none: codes that mean no reading;\n"
-         "unit=MM: codes are distances, MM mm each, from near to far;\n"
-         "near=MM, far=MM: limits for distances and for the inverse law")
+         "unit=MM: a code is a distance, counted in steps of MM mm;\n"
+         "near=MM, far=MM: with unit or the inverse law, the distances at the front and at the back of the box")
       ->allow_extra_args(false)
       ->type_name("FILE|KEY=VALUE,..");
   app.add_option_function<std::string>(

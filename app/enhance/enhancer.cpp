@@ -61,7 +61,7 @@ DepthEnhancer::DepthEnhancer(Enhancement how, const DepthCalibration& source)
 
 Result<void> DepthEnhancer::add(const Frame& depth) {
   if (sums_.pictures + pictures_.size() > 0 && (depth.width != width_ || depth.height != height_)) {
-    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+    return fail(ErrorCode::Unsupported, "the picture size changes; split the film there");
   }
   width_ = depth.width;
   height_ = depth.height;

@@ -78,7 +78,9 @@ class Parser {
   }
 
   Outcome<std::vector<PlaylistEntry>> entries() && {
-    if (entries_.empty()) return failOn(from_, {ErrorCode::Corrupt, 0, "the playlist names no film"});
+    if (entries_.empty())
+      return failOn(from_,
+                    {ErrorCode::Corrupt, 0, "the playlist names no film; write one path or address on each line"});
     return std::move(entries_);
   }
 

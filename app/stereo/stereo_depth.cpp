@@ -99,7 +99,7 @@ DepthCalibration StereoDepth::calibration() {
 Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) const {
   for (const Frame* view : {&left, &right}) {
     if (view->width == plan_.cols && view->height == plan_.rows) continue;
-    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+    return fail(ErrorCode::Unsupported, "the picture size changes; split the film there");
   }
   const ShotPlan& shot = plan_.at(left.pts);
   std::shared_ptr<std::vector<std::uint16_t>> codes;

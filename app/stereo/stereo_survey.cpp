@@ -77,7 +77,8 @@ class DisparityCount {
   std::uint64_t all_ = 0;
 };
 
-// All but the outliers have the disparity that two copies of one picture would have: a codec and noise shift them less.
+// True if nine tenths of the samples have a disparity within half a pixel of zero, as two copies of one picture have: a
+// codec and noise shift a sample by less than that.
 bool isSame(const DisparityCount& count) {
   constexpr double kOutliers = 0.05, kMost = 0.5;  // pixels of the reduced picture
   return count.below(kOutliers) >= -kMost && count.below(1 - kOutliers) + 0.25 <= kMost;
@@ -104,7 +105,7 @@ Result<void> StereoSurvey::add(const Frame& left, const Frame& right) {
   }
   for (const Frame* view : {&left, &right}) {
     if (view->width == plan_.cols && view->height == plan_.rows) continue;
-    return fail(ErrorCode::Unsupported, "the picture size changes; cut the film there");
+    return fail(ErrorCode::Unsupported, "the picture size changes; split the film there");
   }
   const bool begins = beginsShot(left);
   if (begins) beginShot(left.pts);

@@ -22,9 +22,10 @@ class LibraryWords {
   LibraryWords& operator=(const LibraryWords&) = delete;
 
   [[nodiscard]] const std::string& last() const noexcept { return last_; }
-  // From now on, warnings of the container are noted, but for those that whole films cause.
+  // Notes each warning of the demuxer from now on, except those that FFmpeg also prints for an undamaged film.
   void listenTo(const AVFormatContext& container) noexcept { container_ = &container; }
-  // In whatever words: it has passed over bytes, or over a segment of a DASH film, whose opening cannot be seen here.
+  // True if the demuxer has warned: it has skipped bytes, or a segment of a DASH film, whose opening cannot be seen
+  // here.
   [[nodiscard]] bool containerWarned() const noexcept { return container_warned_; }
 
  private:

@@ -27,7 +27,7 @@ class MousePort {
   // NotFound, PermissionDenied; Unsupported if it is no mouse.
   [[nodiscard]] virtual Result<void> open() = 0;
   virtual void close() noexcept = 0;
-  // The greatest distance from the middle that it can point at, horizontally and vertically. Known from `open` on.
+  // Half the width and half the height of the workspace. Valid after `open`.
   [[nodiscard]] virtual glm::dvec2 reachMm() const noexcept { return {100, 75}; }
   // A mouse over a picture points along a line of sight; any other reports how far it has moved.
   [[nodiscard]] virtual bool overPicture() const noexcept { return false; }

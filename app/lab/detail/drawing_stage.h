@@ -26,7 +26,8 @@ class DrawingStage {
   // Draws the same picture again.
   [[nodiscard]] Outcome<Duration> again();
   [[nodiscard]] DrawnPicture picture() const;
-  // The triangles of the relief that was drawn last, including its silhouettes.
+  // The number of triangles of the relief that was drawn last, including those at silhouettes (edges of things, and the
+  // background that continues behind them).
   [[nodiscard]] std::size_t triangles() const {
     return level_.grid_step > 0 ? grid_->triangles(level_.grid_step) : renderer_->statistics().triangles;
   }

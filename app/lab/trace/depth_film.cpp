@@ -126,7 +126,8 @@ Outcome<bool> DepthFilm::append() {
   const auto field = HeightField::make(**frame, calibration_, volume_);
   if (!field) return fail_here(field.error());
   if (newest_ && (field->cols() != newest_->field.cols() || field->rows() != newest_->field.rows())) {
-    return failOn(options_.source.url, {ErrorCode::Unsupported, 0, "the picture changes its size; cut the film there"});
+    return failOn(options_.source.url,
+                  {ErrorCode::Unsupported, 0, "the depth's picture changes its size; split the film there"});
   }
   if (!first_pts_) first_pts_ = (*frame)->pts;
   MediaTime time{(*frame)->pts - *first_pts_};
