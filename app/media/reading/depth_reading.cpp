@@ -40,11 +40,6 @@ std::string number(double value) {
   return print("%.6g", value);
 }
 
-// The range of the codes between `lowest` and `highest`, without the outliers.
-CodeCount::Reach reachOf(const CodeCount& count, std::uint32_t lowest, std::uint32_t highest) {
-  return count.reach(kOutliers, lowest, highest);
-}
-
 std::string holesText(double share) {
   return share == 0 ? "" : print(" with %.1f %% holes", 100 * share);
 }
@@ -53,7 +48,7 @@ std::string holesText(double share) {
 DepthReading readDistances(const CodeCount& count, double unit_mm, const CodeSet& invalid, const char* what) {
   const CodeCount valid = count.without(invalid);
   if (valid.samples() == 0) return {};
-  const auto reach = reachOf(valid, 0, kTop);
+  const auto reach = valid.reach(kOutliers, 0, kTop);
   const double near = std::max(1.0, std::floor(kNearer * unit_mm * reach.low));
   const double far = std::max(near + 1, std::ceil(kFarther * unit_mm * reach.high));
   DepthReading reading;
@@ -70,7 +65,7 @@ DepthReading readInverse(const CodeCount& count, const KnownKind& kind, const Co
   if (valid.samples() == 0) return {};
   const bool raw = kind.inverse.offset > 0;
   const auto lowest = raw ? kRawLowest : 1;
-  const auto reach = reachOf(valid, lowest, raw ? kRawHighest : kTop);
+  const auto reach = valid.reach(kOutliers, lowest, raw ? kRawHighest : kTop);
   const std::uint32_t low = reach.low, high = std::max(reach.high, reach.low + 1);
   const auto mm = [&](double code) { return kind.inverse.mm / (raw ? kind.inverse.offset - code : code); };
   const double near = mm(raw ? low : high), far = mm(raw ? high : low);
@@ -101,7 +96,7 @@ bool isNetwork(const Frame& depth, const CodeCount& count) {
   constexpr std::uint32_t kNearestMm = 100, kNearMiddleMm = 200;
   constexpr double kBesideHoles = 0.02;
   if (count.share(1, kTop) == 0) return false;
-  const auto reach = reachOf(count, 1, kTop);
+  const auto reach = count.reach(kOutliers, 1, kTop);
   if (depth.model != ColorModel::Gray || count.bits() != 16 || count.step() > kMostStep) return false;
   if (reach.high >= kMaybeStretched) return false;
   const bool has_zero = count.share(0, 0) > kOutliers;
@@ -112,7 +107,7 @@ bool isNetwork(const Frame& depth, const CodeCount& count) {
 }
 
 DepthReading readNetwork(const CodeCount& count) {
-  const auto reach = reachOf(count, 0, kTop);
+  const auto reach = count.reach(kOutliers, 0, kTop);
   const double high = std::ceil(kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"codes", print("%u-%.0f", reach.low, high)}};
@@ -148,14 +143,14 @@ bool hasPlayers(const CodeCount& count) {
   const CodeCount all = count.together();
   const double background = all.remainders(8, 0);
   return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 &&
-         reachOf(all, 1, kTop).high < kFarthest;
+         all.reach(kOutliers, 1, kTop).high < kFarthest;
 }
 
 // For heights: the range of codes.
 DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   const CodeCount valid = count.without(holes);
   if (valid.samples() == 0) return {};
-  const auto reach = reachOf(valid, 0, kTop);
+  const auto reach = valid.reach(kOutliers, 0, kTop);
   const double margin = (kFarther - 1) * std::max(1.0, static_cast<double>(reach.high) - reach.low);
   const double low = std::max(0.0, std::floor(reach.low - margin)), high = std::min<double>(kTop, reach.high + margin);
   DepthReading reading;
@@ -268,7 +263,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
   if (isNetwork(depth, count)) return nullptr;
-  const auto reach = reachOf(count, 1, kTop - 1);
+  const auto reach = count.reach(kOutliers, 1, kTop - 1);
   const bool fine =
       (reach.high > kFarthestMm || count.together().quantile(0.5, 1, kTop - 1) > kMiddleMm) && reach.low > kLeastOfFine;
   return findKind(!fine ? "mm" : step == kTenths ? "ycb" : "tum");
