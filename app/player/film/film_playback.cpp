@@ -15,9 +15,8 @@ constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
 constexpr Duration kStillStands = std::chrono::seconds(5);
-constexpr Duration kLivePatience =
-    std::chrono::milliseconds(100);  // a live film has nothing buffered once its newest picture is shown
-constexpr double kRushStepS = 0.1;   // of the machine's time, between two pictures at a rate over 1
+constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // nothing is behind a live film's newest picture
+constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
 
@@ -256,8 +255,7 @@ MonotonicTime FilmPlayback::nextPicture(MonotonicTime now) const {
   const auto sample = clock_.sample();
   const bool over = head_.last() && head_.ahead().empty();
   if (!sample || sample->rate <= 0 || starved_ || over) return MonotonicTime::max();
-  if (isLive() && head_.ahead().empty()) return std::max(pace_.next(), now);
-  if (head_.ahead().empty()) return now + period();
+  if (head_.ahead().empty()) return isLive() ? std::max(pace_.next(), now) : now + period();
   return sample->when(head_.ahead().front().color.pts - (isLive() ? kMostBehind : Duration(0)));
 }
 
