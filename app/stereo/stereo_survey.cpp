@@ -19,6 +19,7 @@ constexpr int kReducedCols = 320;       // in which the range is measured
 constexpr std::size_t kMostAsked = 8;   // pictures of a shot that are examined for the eyes' order
 constexpr int kWidest = 6;              // the largest disparity is the width divided by this
 constexpr double kBlackSpread = 3;      // levels
+constexpr int kTexture = 4;             // levels among five pixels of a row: black with its noise has fewer
 constexpr double kSame = 0.75;          // levels between two views, on average
 constexpr double kLeastShift = 0.5;     // pixels that are worth correcting
 constexpr double kBadRest = 1.5;        // pixels
@@ -48,19 +49,27 @@ Alignment scaledBy(Alignment alignment, double scale) {
   return alignment;
 }
 
-// Disparities by their counts, in quarters of a pixel.
+// Disparities of the textured pixels by their counts, in quarters of a pixel. What is matched elsewhere is chance: the
+// black around a title would have the widest range.
 class DisparityCount {
  public:
   explicit DisparityCount(int widest) : widest_(widest), counts_(static_cast<std::size_t>(2 * widest + 1) * 4) {}
-  void add(const DisparityMap& map) {
+  void add(const DisparityMap& map, const ViewPicture& left) {
+    cv::Mat contrast;
+    cv::morphologyEx(lumaOf(left), contrast, cv::MORPH_GRADIENT, cv::Mat::ones(1, 5, CV_8U));
     for (std::size_t i = 0; i < map.size(); ++i) {
+      if (contrast.data[i] < kTexture) continue;
+      ++textured_;
       if (map.seen[i] == 0) continue;
       const auto place = static_cast<std::ptrdiff_t>((map.pixels[i] + static_cast<float>(widest_)) * 4);
       ++counts_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(place, 0, std::ssize(counts_) - 1))];
       ++all_;
     }
   }
-  [[nodiscard]] std::uint64_t all() const { return all_; }
+  // The share of the textured pixels that both views show.
+  [[nodiscard]] double found() const {
+    return textured_ > 0 ? static_cast<double>(all_) / static_cast<double>(textured_) : 0;
+  }
   // The disparity below which this share lies.
   [[nodiscard]] double below(double share) const {
     double sum = 0;
@@ -74,7 +83,7 @@ class DisparityCount {
  private:
   int widest_;
   std::vector<std::uint64_t> counts_;
-  std::uint64_t all_ = 0;
+  std::uint64_t all_ = 0, textured_ = 0;
 };
 
 // True if nine tenths of the samples have a disparity within half a pixel of zero, as two copies of one picture have: a
@@ -165,15 +174,13 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
   const double scale = static_cast<double>(plan_.cols) / cols;
   const double kept = static_cast<double>(plan_.cols) / looked_.front().left.cols;
   DisparityCount count(widest + 1);
-  std::uint64_t all = 0;
   for (Looked& looked : looked_) {
     if (shot.is_balanced) balance(looked.right, shot.exposure);
     if (shot.is_aligned) looked.right = aligned(looked.right, scaledBy(shot.alignment, 1 / kept));
-    const DisparityMap& map = quick_.match(reduced(looked.left, cols), reduced(looked.right, cols), {-widest, widest});
-    count.add(map);
-    all += map.size();
+    const ViewPicture left = reduced(looked.left, cols);
+    count.add(quick_.match(left, reduced(looked.right, cols), {-widest, widest}), left);
   }
-  shot.has_depth = static_cast<double>(count.all()) > kLeastFound * static_cast<double>(all);
+  shot.has_depth = count.found() > kLeastFound;
   if (shot.has_depth && isSame(count)) ++same_;
   const double low = scale * count.below(kOutliers), high = scale * (count.below(1 - kOutliers) + 0.25);
   const double spare = scale + kSpare * (high - low);
