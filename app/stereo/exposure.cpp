@@ -26,6 +26,13 @@ double ViewTone::spread(std::size_t component) const {
   return count_ > 0 ? std::sqrt(std::max(0.0, squares_[component] / count_ - m * m)) : 0;
 }
 
+bool isBlack(const ViewPicture& view) {
+  constexpr double kBlackSpread = 3;  // levels
+  ViewTone tone;
+  tone.add(view);
+  return tone.spread(0) < kBlackSpread;
+}
+
 bool Exposure::isNeeded() const {
   constexpr double kContrast = 0.06, kLevels = 4, kMiddle = 128;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -20,6 +20,9 @@ class ViewTone {
   std::array<double, 3> sum_{}, squares_{};
 };
 
+// True for an even view, such as the black of a fade: there is nothing to match in it.
+[[nodiscard]] bool isBlack(const ViewPicture& view);
+
 // Maps a code of each component to gain * code + offset.
 struct Exposure {
   std::array<double, 3> gain{1, 1, 1}, offset{};

@@ -51,7 +51,7 @@ std::shared_ptr<std::vector<std::uint16_t>> codesOf(const DisparityMap& map, Dis
   return codes;
 }
 
-// A shot without depth gets the middle code.
+// A shot without depth, and the black before a fade, get the middle code.
 std::shared_ptr<std::vector<std::uint16_t>> flatCodes(std::size_t size) {
   return std::make_shared<std::vector<std::uint16_t>>(size, static_cast<std::uint16_t>(kHighest / 2));
 }
@@ -96,22 +96,24 @@ DepthCalibration StereoDepth::calibration() {
   return {.law = DepthLaw::Linear, .range = ColorRange::Full, .bits = 16};
 }
 
-Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) const {
+Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) {
   for (const Frame* view : {&left, &right}) {
     if (view->width == plan_.cols && view->height == plan_.rows) continue;
     return fail(ErrorCode::Unsupported, "the picture size changes; split the film there");
   }
   const ShotPlan& shot = plan_.at(left.pts);
-  std::shared_ptr<std::vector<std::uint16_t>> codes;
-  if (shot.has_depth) {
-    ViewPicture moved = readView(right);
+  const ViewPicture fixed = readView(left);
+  ViewPicture moved = readView(right);
+  const bool black = isBlack(fixed) || isBlack(moved);
+  const bool stays = black && last_ && &plan_.at(last_->pts) == &shot;
+  if (!stays && shot.has_depth && !black) {
     if (shot.is_balanced) balance(moved, shot.exposure);
     if (shot.is_aligned) moved = aligned(moved, shot.alignment);
-    codes = codesOf(disparityOf(readView(left), moved, shot.range), shot.range);
-  } else {
-    codes = flatCodes(static_cast<std::size_t>(left.width) * static_cast<std::size_t>(left.height));
+    last_ = grayFrame(codesOf(disparityOf(fixed, moved, shot.range), shot.range), left.width, left.height);
+  } else if (!stays) {
+    last_ = grayFrame(flatCodes(fixed.size()), left.width, left.height);
   }
-  Frame depth = grayFrame(std::move(codes), left.width, left.height);
+  Frame& depth = *last_;
   depth.pts = left.pts;
   depth.duration = left.duration;
   depth.sample_aspect = left.sample_aspect;

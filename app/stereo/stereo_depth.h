@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "app/scene/depth_calibration.h"
 #include "app/stereo/disparity_map.h"
@@ -36,11 +37,13 @@ class StereoDepth {
   [[nodiscard]] static DepthCalibration calibration();
   [[nodiscard]] const StereoPlan& plan() const noexcept { return plan_; }
 
-  // As large as the left view, with its time. Unsupported if the size is not the plan's.
-  [[nodiscard]] Result<Frame> depthOf(const Frame& left, const Frame& right) const;
+  // As large as the left view, with its time. Call it picture by picture: in a fade to black, the last relief of the
+  // shot stays. Unsupported if the size is not the plan's.
+  [[nodiscard]] Result<Frame> depthOf(const Frame& left, const Frame& right);
 
  private:
   StereoPlan plan_;
+  std::optional<Frame> last_;
 };
 
 }  // namespace relievo

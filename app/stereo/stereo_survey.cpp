@@ -18,7 +18,6 @@ constexpr int kKeptCols = 640;          // of what is kept: in which the eyes ar
 constexpr int kReducedCols = 320;       // in which the range is measured
 constexpr std::size_t kMostAsked = 8;   // pictures of a shot that are examined for the eyes' order
 constexpr int kWidest = 6;              // the largest disparity is the width divided by this
-constexpr double kBlackSpread = 3;      // levels
 constexpr int kTexture = 4;             // levels among five pixels of a row: black with its noise has fewer
 constexpr double kSame = 0.75;          // levels between two views, on average
 constexpr double kLeastShift = 0.5;     // pixels that are worth correcting
@@ -31,12 +30,6 @@ ViewPicture reduced(const ViewPicture& view, int most_cols) {
   cv::Mat result = asMat(small);
   cv::resize(asMat(view), result, result.size(), 0, 0, cv::INTER_AREA);
   return small;
-}
-
-bool isBlack(const ViewPicture& view) {
-  ViewTone tone;
-  tone.add(view);
-  return tone.spread(0) < kBlackSpread;
 }
 
 double difference(const ViewPicture& a, const ViewPicture& b) {

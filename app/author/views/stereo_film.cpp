@@ -110,7 +110,7 @@ FilmInfo StereoFilm::described(FilmInfo info) const {
   return info;
 }
 
-Result<FramePair> StereoFilm::withDepth(FramePair views) const {
+Result<FramePair> StereoFilm::withDepth(FramePair views) {
   if (swapped_) std::swap(views.color, views.right);
   auto depth = depth_.depthOf(views.color, views.right);
   if (!depth) return std::unexpected(depth.error());

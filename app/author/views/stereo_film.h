@@ -31,8 +31,8 @@ class StereoFilm {
   [[nodiscard]] const SourceOptions& source() const noexcept { return source_; }
   // Describes the film with the depth made from its views.
   [[nodiscard]] FilmInfo described(FilmInfo info) const;
-  // The left view and its depth, in place of the two views.
-  [[nodiscard]] Result<FramePair> withDepth(FramePair views) const;
+  // The left view and its depth, in place of the two views; call it picture by picture.
+  [[nodiscard]] Result<FramePair> withDepth(FramePair views);
   // What was corrected; one line each.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 

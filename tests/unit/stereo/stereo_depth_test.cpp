@@ -43,7 +43,7 @@ Errors errorsWith(const RightEye& eye) {
   const TwoViews scene = boards();
   StereoSurvey survey;
   EXPECT_TRUE(survey.add(scene.left(), scene.right(eye)).has_value());
-  const StereoDepth stereo(survey.finish().value());
+  StereoDepth stereo(survey.finish().value());
   const auto depth = stereo.depthOf(scene.left(), scene.right(eye));
   EXPECT_TRUE(depth.has_value());
   const Errors errors = errorsOf(*depth, scene, stereo.plan().shots[0].range);
@@ -120,7 +120,7 @@ TEST(StereoDepth, DoesNotBreatheWithinAShot) {
     lefts.back().pts = rights.back().pts = mediaTime(0.5 * k);
     ASSERT_TRUE(survey.add(lefts.back(), rights.back()).has_value());
   }
-  const StereoDepth stereo(survey.finish().value());
+  StereoDepth stereo(survey.finish().value());
   ASSERT_EQ(stereo.plan().shots.size(), 1u);
   const DisparityRange range = stereo.plan().shots[0].range;
   std::vector<double> means;
@@ -137,6 +137,32 @@ TEST(StereoDepth, DoesNotBreatheWithinAShot) {
   }
   const auto [least, most] = std::ranges::minmax(means);
   EXPECT_LT(most - least, 0.1) << "pixels of disparity";
+}
+
+TEST(StereoDepth, InTheBlackOfAFadeTheLastReliefStays) {
+  const TwoViews scene = boards();
+  Frame left = scene.left(), right = scene.right(), black = scene.right({.gain = 0});
+  StereoSurvey survey;
+  ASSERT_TRUE(survey.add(left, right).has_value());
+  StereoPlan plan = survey.finish().value();
+  plan.shots.push_back(plan.shots[0]);
+  plan.shots[1].begin = mediaTime(2);
+  StereoDepth stereo(plan);
+  const auto codesAt = [&](double seconds, Frame a, Frame b) {
+    a.pts = b.pts = mediaTime(seconds);
+    const Frame depth = stereo.depthOf(a, b).value();
+    EXPECT_EQ(depth.pts, mediaTime(seconds));
+    const std::uint8_t* const begin = depth.planes[0].data;
+    return std::vector<std::uint8_t>(begin, begin + depth.planes[0].stride_bytes * depth.height);
+  };
+  const std::vector<std::uint8_t> before = codesAt(0, left, right);
+  EXPECT_EQ(codesAt(0.5, black, black), before);
+  EXPECT_EQ(codesAt(1, black, black), before);
+  EXPECT_EQ(codesAt(1.5, left, right), before);
+  const std::vector<std::uint8_t> next = codesAt(2, black, black);
+  EXPECT_NE(next, before) << "another shot";
+  EXPECT_EQ(next[0], 0xff);
+  EXPECT_EQ(next[1], 0x7f) << "the middle code";
 }
 
 TEST(StereoDepth, AShotWithABlackViewIsFlat) {
