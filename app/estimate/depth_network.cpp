@@ -10,14 +10,14 @@
 #include "app/estimate/network_engine.h"
 #include "app/estimate/onnx_input.h"
 #include "platform/files/answered_file.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
 
 constexpr Error kNotDepth{ErrorCode::Unsupported, 0, "the network must give depth in one channel"};
 
-constexpr Error kOneSize{ErrorCode::InvalidArgument, 0,
-                         "the network takes pictures of another size, and no other; leave --depth-size out"};
+constexpr Error kOneSize{ErrorCode::InvalidArgument, 0, "give that as --depth-size, or leave it out"};
 
 constexpr const char* kTooLarge = "is larger than an ONNX model can be";
 
@@ -95,7 +95,8 @@ Outcome<std::unique_ptr<DepthNetwork>> DepthNetwork::open(const std::string& pat
   const auto own = onnxInputOf(*bytes);
   if (!own) return failOn(path, own.error());
   const cv::Size size = inputSize(*own, input, cols, rows);
-  if (input && size != cv::Size(input->first, input->second)) return failOn(path, kOneSize);
+  if (input && size != cv::Size(input->first, input->second))
+    return failOn(print("%s takes pictures of %dx%d", path.c_str(), size.width, size.height), kOneSize);
   auto engine = openNetwork(path, *bytes);
   if (!engine) return std::unexpected(engine.error());
   return std::unique_ptr<DepthNetwork>(new DepthNetwork(std::make_unique<Impl>(Impl{path, std::move(*engine), size})));

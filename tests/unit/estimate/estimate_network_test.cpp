@@ -143,10 +143,10 @@ TEST_F(Network, AnswersInThePicturesShape) {
 TEST_F(Network, RefusesASizeThatANetworkOfAnotherDoesNotTake) {
   const auto failure = [&](std::pair<int, int> wished, const std::vector<int>& input) {
     const auto opened = DepthNetwork::open(written(network(input, {1, 1, 1})), 128, 64, wished);
-    return opened ? "none" : std::string(opened.error().error.message);
+    return opened ? "none" : opened.error().thing + ": " + opened.error().error.message;
   };
-  EXPECT_THAT(failure({280, 154}, {1, 3, 32, 64}), HasSubstr("leave --depth-size out"));
-  EXPECT_THAT(failure({280, 32}, {1, 3, 0, 64}), HasSubstr("leave --depth-size out")) << "its columns are given";
+  EXPECT_THAT(failure({280, 154}, {1, 3, 32, 64}), HasSubstr("takes pictures of 64x32: give that as --depth-size"));
+  EXPECT_THAT(failure({280, 32}, {1, 3, 0, 64}), HasSubstr("takes pictures of 64x32: ")) << "its columns are given";
   EXPECT_EQ(failure({64, 154}, {1, 3, 0, 64}), "none");
   EXPECT_EQ(failure({64, 32}, {1, 3, 32, 64}), "none");
 }
