@@ -9,6 +9,7 @@
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"
+#include "tests/support/film/two_views.h"
 #include "tests/unit/media/recordings.h"
 
 namespace relievo {
@@ -55,6 +56,26 @@ TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
   }
   EXPECT_THAT(open({.url = folder / "sbs.mp4", .packing = Packing::SideBySide}).info.reading.doubts,
               Contains(HasSubstr("the same picture")));
+}
+
+// 12 of 180 rows, as of two cameras that were held by hand.
+TEST(Recordings, AViewThatLiesTooHighOrTooLowIsTold) {
+  constexpr int kCols = 320, kRows = 180;
+  const test::TwoViews scene = test::boards(kCols, kRows);
+  TemporaryFolder folder;
+  for (const double down : {-12, 12}) {
+    const Frame left = scene.left(), right = scene.right({.down = down});
+    makeClip(folder / "views.mkv", {{.pix_fmt = "bgr0",
+                                     .width = 2 * kCols,
+                                     .height = kRows,
+                                     .frames = 2,
+                                     .sample = [&](int component, int c, int r, int) {
+                                       return test::sampleAt(c < kCols ? left : right, component, c % kCols, r);
+                                     }}});
+    EXPECT_THAT(open({.url = folder / "views.mkv"}).info.reading.doubts,
+                ElementsAre(HasSubstr("may be two views of one scene (stereo), no depth; if so, --packing stereo-sbs")))
+        << down;
+  }
 }
 
 // --depth-from stereo: the reader keeps both views in each pair; the player makes the depth.

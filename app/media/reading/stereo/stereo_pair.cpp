@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -14,6 +17,7 @@ namespace {
 constexpr int kCols = 168, kRows = 96;  // of the reduced pictures
 constexpr int kBlock = 12;              // both divide evenly
 constexpr int kFarthest = kCols / 7;    // shift in the reduced picture
+constexpr int kLowest = kRows / 12;     // rows by which one view may lie lower than the other
 constexpr double kTexture = 0.02;       // least standard deviation in a block, of full scale
 constexpr double kAlike = 0.85;         // correlation of a block that was found
 constexpr double kFound = 0.6;          // share of the blocks in a stereo pair; of colour and depth 0.15
@@ -93,30 +97,64 @@ double correlation(const Reduced& a, int ca, int ra, const Moments& of_a, const 
   return sum / (kBlock * kBlock) / (of_a.deviation * of_b.deviation);
 }
 
-bool isFound(const Reduced& a, int c0, int r0, const Moments& moments, const Reduced& b) {
+// `lower`: the rows that the other picture lies lower.
+bool isFound(const Reduced& a, int c0, int r0, const Moments& moments, const Reduced& b, int lower) {
   for (int c = std::max(0, c0 - kFarthest); c <= std::min(kCols - kBlock, c0 + kFarthest); ++c) {
-    for (int r = std::max(0, r0 - 1); r <= std::min(kRows - kBlock, r0 + 1); ++r) {
+    for (int r = std::max(0, r0 + lower - 1); r <= std::min(kRows - kBlock, r0 + lower + 1); ++r) {
       if (correlation(a, c0, r0, moments, b, c, r) >= kAlike) return true;
     }
   }
   return false;
 }
 
+// The change of the rows' brightness from each row to the next: nearly the same in two views of one scene.
+std::vector<double> changesOf(const Reduced& a) {
+  std::vector<double> rows(kRows), changes;
+  for (int r = 0; r < kRows; ++r) rows[static_cast<std::size_t>(r)] = std::reduce(&a[at(0, r)], &a[at(0, r)] + kCols);
+  std::adjacent_difference(rows.begin(), rows.end(), std::back_inserter(changes));
+  changes.front() = 0;
+  return changes;
+}
+
+// The rows that the second picture lies lower, as far as whole pictures can tell.
+int rowsLower(const Reduced& a, const Reduced& b) {
+  const std::vector<double> first = changesOf(a), second = changesOf(b);
+  int best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int lower = -kLowest; lower <= kLowest; ++lower) {
+    double sum = 0;
+    for (std::size_t r = kLowest; r < kRows - kLowest; ++r)
+      sum += std::abs(first[r] - second[static_cast<std::size_t>(static_cast<int>(r) + lower)]);
+    if (sum < least) best = lower;
+    least = std::min(least, sum);
+  }
+  return best;
+}
+
 struct Likeness {
   int textured = 0, found = 0;  // blocks of the first picture
 };
-Likeness likenessOf(const Frame& first, const Frame& second) {
-  const Reduced a = reduce(first), b = reduce(second);
+Likeness likenessOf(const Reduced& a, const Reduced& b, int lower) {
   Likeness likeness;
   for (int r = 0; r < kRows; r += kBlock) {
     for (int c = 0; c < kCols; c += kBlock) {
       const Moments moments = momentsOf(a, c, r);
       if (textureOf(a, c, r, moments) < kTexture) continue;
       ++likeness.textured;
-      likeness.found += isFound(a, c, r, moments, b) ? 1 : 0;
+      likeness.found += isFound(a, c, r, moments, b, lower) ? 1 : 0;
     }
   }
   return likeness;
+}
+
+// A view of a camera that was built or held badly lies higher or lower than the other.
+Likeness likenessOf(const Frame& first, const Frame& second) {
+  const Reduced a = reduce(first), b = reduce(second);
+  const Likeness level = likenessOf(a, b, 0);
+  const int lower = rowsLower(a, b);
+  if (lower == 0 || level.found >= kFound * level.textured) return level;
+  const Likeness moved = likenessOf(a, b, lower);
+  return moved.found > level.found ? moved : level;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace relievo {
 
 // True if most textured blocks of one picture are found in the other, shifted sideways by at most a seventh of
-// the width. A depth picture lacks the colour's texture.
+// the width, and all of them up or down by at most a twelfth of the height. A depth picture lacks the colour's texture.
 [[nodiscard]] bool areViews(const Frame& first, const Frame& second);
 
 // True if both pictures have texture but share hardly any of it: they are not two views of one scene.
