@@ -25,9 +25,8 @@ constexpr int kClearVoteCols = 640;  // the width if that is not conclusive
 constexpr float kSpare = 0.2F;       // of the range, on each side
 constexpr float kLeastSpare = 1.5F;  // pixels of the survey
 constexpr float kHighest = 65535;
-constexpr double kBlackSpread = 3;  // levels
-constexpr int kLookEvery = 4;       // pictures: something may have come nearer than all before
-constexpr int kVotes = 6;           // pictures of a shot that are examined for the eyes' order
+constexpr int kLookEvery = 4;  // pictures: something may have come nearer than all before
+constexpr int kVotes = 6;      // pictures of a shot that are examined for the eyes' order
 
 }  // namespace
 
@@ -44,13 +43,14 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   if (!range_) level(right, size);
   readStraight(right, size);
   if (swapped_) mirrorBoth();
-  if (!range_) {  // also where a shot comes out of the dark
+  const bool fades = range_ && isBlack(left_);  // in the black, the last relief of the shot stays
+  if (!range_) {                                // also where a shot comes out of the dark
     measureShot();
-  } else if (++since_look_ == kLookEvery) {
+  } else if (!fades && ++since_look_ == kLookEvery) {
     lookAgain();
   }
   if (large_.cols != size.cols || large_.rows != size.rows) large_ = DisparityMap(size.cols, size.rows);
-  if (range_) match(large_);
+  if (range_ && !fades) match(large_);
   Frame depth = codesOf(large_);
   depth.pts = left.pts;
   depth.duration = left.duration;
@@ -103,10 +103,10 @@ std::optional<QuickDepth::Range> QuickDepth::reach() {
 }
 
 void QuickDepth::measureShot() {
+  if (isBlack(left_) || isBlack(right_)) return;
   ViewTone left_tone, right_tone;
   left_tone.add(left_);
   right_tone.add(right_);
-  if (left_tone.spread(0) < kBlackSpread || right_tone.spread(0) < kBlackSpread) return;
   const Exposure exposure = exposureBetween(left_tone, right_tone);
   if (exposure.isNeeded()) exposure_ = exposure;
   range_ = reach();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "app/stereo/eye_order.h"
@@ -297,6 +299,27 @@ TEST(QuickDepth, HasTheShapeInWhichTheViewIsShown) {
   EXPECT_EQ(depth.height, 180);
   EXPECT_NEAR(depth.sample_aspect * depth.width / depth.height, 2.0 * kCols / kRows, 1e-9);
   EXPECT_EQ(depth.pts, mediaTime(1.5));
+}
+
+// In steps that are no cuts.
+TEST(QuickDepth, InTheBlackOfAFadeTheLastReliefStays) {
+  const TwoViews scene = boards(320, 200);
+  const auto dimmed = [](Frame frame, double gain) {
+    auto bytes = std::make_shared<std::vector<std::uint8_t>>(
+        frame.planes[0].data, frame.planes[0].data + frame.planes[0].stride_bytes * frame.height);
+    for (std::uint8_t& byte : *bytes) byte = static_cast<std::uint8_t>(gain * byte);
+    frame.planes[0].data = bytes->data();
+    frame.owner = bytes;
+    return frame;
+  };
+  QuickDepth quick;
+  std::vector<Frame> depths;
+  for (const double gain : {1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0, 0.0})
+    depths.push_back(quick.depthOf(dimmed(scene.left(), gain), dimmed(scene.right(), gain)));
+  const Frame &last = depths[9], &black = depths[11];
+  for (const auto& [c, r] : {std::pair(280, 20), {215, 95}, {80, 140}, {20, 180}})
+    EXPECT_EQ(codeOf(black, c, r), codeOf(last, c, r)) << c << " " << r;
+  EXPECT_GT(codeOf(black, 215, 95), codeOf(black, 280, 20) + 10000);
 }
 
 }  // namespace
