@@ -8,6 +8,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/pictures/picture.h"
 #include "drivers/ffmpeg/pictures/picture_memory.h"
+#include "drivers/ffmpeg/pictures/png_texts.h"
 #include "drivers/ffmpeg/views/view_pairs.h"
 
 namespace relievo {
@@ -93,7 +94,8 @@ class FfmpegDecoder final : public VideoDecoder {
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;  // FFmpeg would take it for the end
     if (!fillPacket(*packet_, packet, time_base_)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
-    const int sent = avcodec_send_packet(context_.get(), packet_.get());
+    const bool refused = context_->codec_id == AV_CODEC_ID_PNG && hasTooManyTexts({packet.data, packet.bytes});
+    const int sent = refused ? AVERROR_INVALIDDATA : avcodec_send_packet(context_.get(), packet_.get());
     av_packet_unref(packet_.get());
     if (sent == AVERROR(EAGAIN)) return Feed::Full;
     if (sent == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
+#include "drivers/ffmpeg/pictures/png_texts.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/file_system_answer.h"
 
@@ -70,6 +71,7 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     if (file.error().code == ErrorCode::Timeout) watch.noteUnanswered(file.error());
     return std::unexpected(file.error());
   }
+  if (hasTooManyTexts(*file)) return fail(ErrorCode::Unsupported, kTooManyTexts);
   auto local = std::make_unique<LocalFile>(std::move(*file), &watch);
   auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   AVIOContext* const context =

@@ -195,6 +195,37 @@ TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   EXPECT_EQ(fits->streams()[0].width, 4096);
 }
 
+// FFmpeg's time for the texts grows with the square of their number: 100,000 took it minutes.
+TEST(FfmpegSource, APngWithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecoded) {
+  TemporaryFolder folder;
+  makeClip(folder / "plain.png", {{.codec = "png", .pix_fmt = "gray", .width = 64, .height = 48, .frames = 1}});
+  std::ifstream file(folder / "plain.png", std::ios::binary);
+  const std::string plain(std::istreambuf_iterator<char>(file), {});
+  constexpr std::size_t kHeader = 33;  // the signature and IHDR
+  const auto with = [&](int texts) {
+    std::string picture = plain.substr(0, kHeader);
+    for (int text = 0; text < texts; ++text) picture += std::string("\0\0\0\3tEXta\0b\xdcI\xa2;", 15);
+    return picture + plain.substr(kHeader);
+  };
+  writeFile(folder / "most.png", with(1000));
+  EXPECT_TRUE(makeFfmpegSource()->open(folder / "most.png"));
+  writeFile(folder / "more.png", with(1001));
+  const Error error = openErrorOf(folder / "more.png");
+  EXPECT_EQ(error.code, ErrorCode::Unsupported);
+  EXPECT_THAT(error.message, HasSubstr("more than 1000 texts"));
+
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "plain.png"));
+  for (const int texts : {1000, 1001}) {  // a picture of a folder reaches the decoder as it is
+    const auto decoder = makeFfmpegDecoder();
+    ASSERT_TRUE(decoder->open(source->streams()[0]));
+    const std::string picture = with(texts);
+    const auto bytes = std::make_shared<std::vector<std::uint8_t>>(picture.begin(), picture.end());
+    ASSERT_TRUE(decoder->feed({.data = bytes->data(), .bytes = bytes->size(), .keyframe = true, .owner = bytes}));
+    EXPECT_EQ(decoder->damaged(), texts > 1000 ? 1u : 0u);
+  }
+}
+
 TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {
   using namespace ffmpeg;
   const auto said = [](const Error& late) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Counts a PNG's texts before FFmpeg decodes it: its time for them grows with the square of their number.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "platform/files/answered_file.h"
+
+namespace relievo::ffmpeg {
+
+// 100,000 texts take FFmpeg minutes, in which nothing can interrupt it; programs write up to a hundred.
+inline constexpr int kMostTexts = 1000;
+inline constexpr const char* kTooManyTexts =
+    "it is a PNG with more than 1000 texts, the most that it may have; save it anew without them";
+
+// False for what is no PNG, and for what cannot be read: FFmpeg says what is wrong with it.
+[[nodiscard]] bool hasTooManyTexts(std::span<const std::uint8_t> picture);
+[[nodiscard]] bool hasTooManyTexts(const AnsweredFile& file);
+
+}  // namespace relievo::ffmpeg
