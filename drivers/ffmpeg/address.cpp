@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <string_view>
 
 #include "platform/files/answered_place.h"
@@ -19,6 +20,8 @@ constexpr const char* kDevice =
     "it is a device or a file of the kernel, not a film; give a film's file (a camera is v4l2:/dev/videoN)";
 constexpr const char* kUnknown =
     "this protocol is not supported; use a file, http, https, rtsp, rtsps, rtp, udp, srt or tcp";
+constexpr const char* kNoPort =
+    "this address needs a port from 1 to 65535, as in udp://@:1234; give the one that the sender sends to";
 
 struct Protocol {
   std::string_view name;
@@ -59,6 +62,19 @@ const char* protocolsOf(Way way) noexcept {
   return "";
 }
 
+// FFmpeg takes a missing port for 0: no port of that number receives anything.
+bool hasPort(std::string_view url) noexcept {
+  url.remove_prefix(url.find(':') + 1);
+  url = url.substr(std::min(url.find_first_not_of('/'), url.size()));
+  url = url.substr(0, url.find_first_of("/?#"));
+  const std::size_t colon = url.find_last_of(":]");  // "[::1]" has none
+  if (colon == url.npos || url[colon] == ']') return false;
+  int port = 0;
+  const char* const end = url.data() + url.size();
+  const auto [last, failed] = std::from_chars(url.data() + colon + 1, end, port);
+  return failed == std::errc() && last == end && port >= 1 && port <= 65535;
+}
+
 // Devices, sockets and files of /proc and the like: a read may block forever and cannot be interrupted.
 bool mayNeverEnd(const std::string& path, const struct stat& status) noexcept {
   if (S_ISCHR(status.st_mode) || S_ISSOCK(status.st_mode)) return true;
@@ -92,6 +108,7 @@ Result<Address> parseAddress(const std::string& url) {
   if (scheme.empty()) return Address{url, Way::File};
   const auto known = std::find_if(kProtocols.begin(), kProtocols.end(), [&](auto& p) { return p.name == scheme; });
   if (known == kProtocols.end()) return fail(ErrorCode::Unsupported, kUnknown);
+  if (known->way == Way::Packets && !hasPort(url)) return fail(ErrorCode::Unsupported, kNoPort);
   return Address{url, known->way};
 }
 

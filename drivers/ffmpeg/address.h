@@ -36,7 +36,7 @@ struct Address {
 [[nodiscard]] std::string_view schemeOf(std::string_view url) noexcept;
 
 // The name of an existing file is a file even if it looks like a URL ("12:30.mkv"). Unsupported: a protocol that is not
-// in the list, such as those that read several files, parts of files or other processes.
+// in the list, such as those that read several files, parts of files or other processes; and packets without a port.
 [[nodiscard]] Result<Address> parseAddress(const std::string& url);
 
 // The options for avformat_open_input: the protocols and formats that anything named by the source may use, and the

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <thread>
 
+#include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "tests/support/film/clip_maker.h"
@@ -234,6 +235,17 @@ TEST(FfmpegSource, ARefusedSeekForgetsNothing) {
   other.join();
 }
 
+TEST(FfmpegSource, PacketsNeedAPort) {
+  for (const char* url : {"udp://@:0", "udp://:0", "udp://@", "udp://", "udp://[::1]", "udp://127.0.0.1:70000",
+                          "udp://127.0.0.1:5x", "rtp://@:0", "rtp://127.0.0.1?ttl=1", "srt://:-1"}) {
+    EXPECT_THAT(openErrorOf(url).message, HasSubstr("a port from 1 to 65535")) << url;
+  }
+  for (const char* url : {"udp://@:1234", "udp:@:1234", "udp://[::1]:65535?pkt_size=1316", "srt://localhost:9000/",
+                          "rtp://127.0.0.1:1?a=b:0"}) {
+    EXPECT_TRUE(ffmpeg::parseAddress(url)) << url;
+  }
+}
+
 TEST(FfmpegSource, InterruptEndsTheWaitForASilentServer) {
   const Server server;
   const auto source = makeFfmpegSource();
@@ -254,7 +266,7 @@ TEST(FfmpegSource, InterruptEndsEveryWaitSoon) {
   const std::string port = silent.url.substr(17, silent.url.rfind('/') - 17);
   for (const std::string& url :
        {"http://127.0.0.1:" + port + "/a.ts", "rtsp://127.0.0.1:" + port + "/a", "tcp://127.0.0.1:" + port,
-        std::string("udp://127.0.0.1:0"), std::string("srt://127.0.0.1:9"), std::string("rtp://127.0.0.1:15004")}) {
+        std::string("udp://127.0.0.1:15006"), std::string("srt://127.0.0.1:9"), std::string("rtp://127.0.0.1:15004")}) {
     const auto source = makeFfmpegSource();
     MonotonicClock clock;
     MonotonicTime interrupted;
