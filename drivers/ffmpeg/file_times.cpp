@@ -30,18 +30,25 @@ std::int64_t bytesOf(const AVFormatContext& context) noexcept {
   return context.pb == nullptr ? 0 : std::max<std::int64_t>(avio_size(context.pb), 0);
 }
 
-// Fills `out` with what stands in the file from `position` on; the container then reads on where it was. False if not
-// as many bytes can be read.
-bool readAt(const AVFormatContext& context, std::int64_t position, std::span<std::uint8_t> out) noexcept {
-  AVIOContext* const file = context.pb;
+// What `look` returns; the container then reads on where it was.
+template <typename Look>
+auto keepingPlace(AVIOContext& file, const Look& look) noexcept {
+  const int error = file.error;
+  const std::int64_t before = avio_tell(&file);
+  const auto seen = look();
+  avio_seek(&file, before, SEEK_SET);
+  file.error = error;
+  return seen;
+}
+
+// Fills `out` with what stands in the file from `position` on. False if not as many bytes can be read.
+bool readFrom(AVIOContext* file, std::int64_t position, std::span<std::uint8_t> out) noexcept {
   if (file == nullptr || (file->seekable & AVIO_SEEKABLE_NORMAL) == 0 || position < 0) return false;
-  const int error = file->error;
-  const std::int64_t before = avio_tell(file);
   const int bytes = static_cast<int>(out.size());
-  const bool all = avio_seek(file, position, SEEK_SET) >= 0 && avio_read(file, out.data(), bytes) == bytes;
-  avio_seek(file, before, SEEK_SET);
-  file->error = error;
-  return all;
+  return avio_seek(file, position, SEEK_SET) >= 0 && avio_read(file, out.data(), bytes) == bytes;
+}
+bool readAt(const AVFormatContext& context, std::int64_t position, std::span<std::uint8_t> out) noexcept {
+  return context.pb != nullptr && keepingPlace(*context.pb, [&] { return readFrom(context.pb, position, out); });
 }
 
 // True for a copy that was broken off after the file system had set its final size. A whole film may end in null
@@ -117,13 +124,13 @@ Duration restOf(const FileEnd::Reached& end, std::int64_t read) noexcept {
 
 // What follows the last packet of a GIF file where a trailer or another block should stand (GIF89a, 15 to 27): FFmpeg
 // ends there, or takes all the rest for the last picture's.
-Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+Duration behindLast(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
   constexpr std::uint8_t kExtension = 0x21, kImage = 0x2c, kTrailer = 0x3b;
   std::int64_t at = end.last;
   std::array<std::uint8_t, 13> bytes{};
   const auto take = [&](std::int64_t count) {
     const std::span some = std::span(bytes).first(static_cast<std::size_t>(count));
-    const bool there = readAt(context, at, some);
+    const bool there = readFrom(context.pb, at, some);
     at += count;
     return there;
   };
@@ -143,6 +150,11 @@ Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end
     skipParts();
   }
   return end.picture;
+}
+
+// The place is kept once, since FFmpeg reads a whole buffer anew for each return.
+Duration trailerGone(const AVFormatContext& context, const FileEnd::Reached& end) noexcept {
+  return context.pb == nullptr ? end.picture : keepingPlace(*context.pb, [&] { return behindLast(context, end); });
 }
 
 // A WMV file that is shorter than its header says: File Properties Object of the ASF specification, 3.2. FFmpeg then

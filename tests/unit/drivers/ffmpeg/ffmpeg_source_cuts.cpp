@@ -191,6 +191,32 @@ TEST(FfmpegSource, TellsHowMuchIsMissingBehindAHoleInAGif) {
   EXPECT_NEAR(toSeconds(source->missing()), 3 - 0.1 * static_cast<double>(pictures), 0.5);
 }
 
+// Each block was read with a buffer of its own: 1,000,000 took minutes.
+TEST(FfmpegSource, CommentsAtTheEndOfAGifAreReadOnce) {
+  TemporaryFolder folder;
+  const std::string make = "cd '" + folder / "" + "' && ffmpeg -nostdin -v error -f lavfi -i testsrc2=d=1:r=10 a.gif";
+  if (std::system(make.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT(bugprone-command-processor)
+  constexpr int kComments = 5000;
+  std::string comments;
+  for (int comment = 0; comment < kComments; ++comment) comments += std::string("\x21\xfe\5hello\0", 9);
+  std::fstream file(folder / "a.gif", std::ios::binary | std::ios::in | std::ios::out);
+  file.seekp(-1, std::ios::end);
+  file << comments << ';' << std::flush;
+  const auto bytesRead = [] {
+    std::ifstream counts("/proc/self/io");
+    std::string word;
+    std::uint64_t bytes = 0;
+    counts >> word >> bytes;  // rchar
+    return bytes;
+  };
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder / "a.gif").has_value());
+  const std::uint64_t before = bytesRead();
+  EXPECT_EQ(readAll(*source).size(), 10U);
+  EXPECT_EQ(source->missing(), Duration(0));
+  EXPECT_LT(bytesRead() - before, 5 * std::filesystem::file_size(folder / "a.gif"));
+}
+
 // A picture lasts 1 s. FLV counts its length from the first decoding time, WMV says no picture's length.
 TEST(FfmpegSource, AWholeFilmOfOnePictureASecondLacksNothing) {
   TemporaryFolder folder;
