@@ -5,6 +5,7 @@
 
 #include "app/media/film_feed.h"
 #include "app/media/film_folder.h"
+#include "app/media/photo_list.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {

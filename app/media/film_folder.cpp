@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/film_folder.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -208,41 +206,6 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
   }
   if (!isListOfFilms(names.size(), pictures)) return std::nullopt;
   return pairedFilms(url, std::move(names));
-}
-
-std::optional<std::vector<PlaylistEntry>> photosIn(
-    const std::string& url, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source) {
-  constexpr std::size_t kOpened = 16;
-  const bool is_folder = isFolder(url);
-  if (!is_folder && (url.find('*') == url.npos || url.find("://") != url.npos)) return std::nullopt;
-  const fs::path folder = is_folder ? fs::path(url) : fs::path(url).parent_path();
-  const std::string pattern = is_folder ? "*" : fs::path(url).filename().string();
-  std::vector<std::string> photos, names;
-  for (const auto& [name, is] : entriesOf(folder.empty() ? "." : folder)) {
-    const bool fits = is == FolderEntry::Kind::File && mediaKindOf(name) != MediaKind::Neither &&
-                      ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
-    if (fits && names.size() < kMostEntries) names.push_back(name);
-    if (fits && isOneOf(endingOf(name), {"jpg", "jpeg", "jpe", "jps", "mpo", "heic", "heif"})) photos.push_back(name);
-  }
-  const auto streamsOf = [&](const std::string& path) {
-    const auto source = make_source(path);
-    return source->open(path) ? source->streams() : std::vector<StreamInfo>{};
-  };
-  const auto holdsMore = [&](const std::string& name) {
-    const auto streams = streamsOf(folder / name);
-    return streams.size() > 1 || (streams.size() == 1 && streams.front().tags.contains("STEREO_MODE"));
-  };
-  bool found = false;
-  std::ranges::sort(photos, naturalLess);
-  for (std::size_t i = 0; i < std::min(photos.size(), kOpened) && !found; ++i) {
-    found = holdsMore(photos[i * photos.size() / std::min(photos.size(), kOpened)]);
-  }
-  if (!found || streamsOf(url).size() > 1) return std::nullopt;
-  const FilesByStem stems = byStem(photos);
-  std::erase_if(names, [&](const std::string& name) {
-    return mediaKindOf(name) == MediaKind::Film && stems.contains(lowerCase(stemOf(name)));
-  });
-  return pairedFilms(folder, std::move(names));
 }
 
 std::string depthBeside(const std::string& film) {

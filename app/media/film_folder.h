@@ -2,26 +2,17 @@
 // Lists the films of a folder, and recognises pictures that a shell has listed as one film.
 #pragma once
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/media/playlist.h"
-#include "hal/media/media_source.h"
 
 namespace relievo {
 
 // The films in the folder `url`, in natural order; nullopt if it is not a folder or not a list of films (a recording
 // with a folder `depth`, a series of pictures). At most kMostEntries. A film's depth may lie beside it: `depthBeside`.
 [[nodiscard]] std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url);
-// The photos that the folder or pattern `url` names, as films that stand, if they hold their depth or two views each,
-// as those of phones do; with the folder's films, but without the film of a moving photo ("1.mov" beside "1.heic").
-// nullopt if none of some that are opened by `make_source` does, or if the pictures have depth of their own beside
-// them.
-[[nodiscard]] std::optional<std::vector<PlaylistEntry>> photosIn(
-    const std::string& url, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source);
 // These files of `folder` as films, in natural order: a file that holds another one's depth is part of that film.
 [[nodiscard]] std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<std::string> names);
 

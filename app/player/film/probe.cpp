@@ -9,6 +9,7 @@
 #include "app/depth_window/shots.h"
 #include "app/media/film_folder.h"
 #include "app/media/pairs/long_wait.h"
+#include "app/media/photo_list.h"
 #include "app/player/film/film_changes.h"
 #include "app/player/report.h"
 #include "app/scene/film_box.h"

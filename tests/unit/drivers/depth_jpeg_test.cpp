@@ -6,9 +6,11 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <vector>
 
-#include "app/media/film_folder.h"
+#include "app/media/photo_list.h"
 #include "drivers/photo/photo.h"
 #include "drivers/registry.h"
 #include "tests/support/files.h"
@@ -215,30 +217,47 @@ TEST(DepthJpeg, ASizeThatLiesMakesNoMemory) {
   EXPECT_FALSE(test::openFilm({.url = folder / "a.jpg"}).info.has_depth);
 }
 
+using MakeSource = std::function<std::unique_ptr<MediaSource>(const std::string&)>;
+std::vector<std::string> listed(const SourceOptions& options, const MakeSource& make = drivers::makeMediaSource) {
+  std::vector<std::string> titles;
+  for (const PlaylistEntry& photo : photosIn(options.url, make).value_or(std::vector<PlaylistEntry>{})) {
+    titles.push_back(photo.title);
+  }
+  return titles;
+}
+std::string portrait() {
+  return standardXmp("<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m") + "GDepth:Data=\"" +
+                     base64(inversePng()) + "\"/>");
+}
+
 TEST(DepthJpeg, AFolderOfPortraitsIsAListOfPhotos) {
   const test::TemporaryFolder folder;
-  const auto listed = [&](const std::string& url) {
-    std::vector<std::string> titles;
-    for (const PlaylistEntry& photo : photosIn(url, drivers::makeMediaSource).value_or(std::vector<PlaylistEntry>{})) {
-      titles.push_back(photo.title);
-    }
-    return titles;
-  };
   const std::string here = std::filesystem::path(folder / "x").parent_path();
   write(folder / "IMG_2.jpg", "");
   write(folder / "IMG_10.jpg", "");
-  EXPECT_TRUE(listed(here).empty()) << "a series of pictures";
-  write(folder / "IMG_9.jpg", standardXmp("<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m") +
-                                          "GDepth:Data=\"" + base64(inversePng()) + "\"/>"));
-  EXPECT_EQ(listed(here), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10"}));
-  EXPECT_EQ(listed(folder / "IMG_*.jpg").size(), 3U) << "as a shell has listed them";
-  EXPECT_TRUE(listed(folder / "IMG_1*.jpg").empty()) << "none of these holds depth";
+  EXPECT_TRUE(listed({.url = here}).empty()) << "a series of pictures";
+  write(folder / "IMG_9.jpg", portrait());
+  EXPECT_EQ(listed({.url = here}), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10"}));
+  EXPECT_EQ(listed({.url = folder / "IMG_*.jpg"}).size(), 3U) << "as a shell has listed them";
+  EXPECT_TRUE(listed({.url = folder / "IMG_1*.jpg"}).empty()) << "none of these holds depth";
   std::ofstream(folder / "IMG_9.mov") << "moving photo";
   std::ofstream(folder / "IMG_11.mov") << "film";
-  EXPECT_EQ(listed(here), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10", "IMG_11"}));
+  EXPECT_EQ(listed({.url = here}), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10", "IMG_11"}));
   for (const char* const film : {"IMG_9.mov", "IMG_11.mov"}) std::filesystem::remove(folder / film);
   for (const int k : {2, 9, 10}) std::ofstream(folder / ("IMG_" + std::to_string(k) + "_depth.png")) << inversePng();
-  EXPECT_TRUE(listed(here).empty()) << "their depth lies beside them";
+  EXPECT_TRUE(listed({.url = here}).empty()) << "their depth lies beside them";
+}
+
+// Covers have their film's name.
+TEST(DepthJpeg, APortraitAmongCoversHidesNoFilm) {
+  const test::TemporaryFolder folder;
+  for (const char* const name : {"MOV1", "MOV2", "MOV3"}) {
+    std::ofstream(folder / (name + std::string(".mp4"))) << "film";
+    write(folder / (name + std::string(".jpg")), "");
+  }
+  write(folder / "portrait.jpg", portrait());
+  EXPECT_TRUE(listed({.url = std::filesystem::path(folder / "x").parent_path()}).empty()) << "a list of films";
+  EXPECT_EQ(listed({.url = folder / "*"}).size(), 7U);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/photo_list.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "app/media/film_folder.h"
+#include "hal/media/media_names.h"
+#include "platform/files/answered_place.h"
+#include "platform/text/lower_case.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isPhoto(const std::string& name) {
+  static constexpr std::array<std::string_view, 7> kEndings{"jpg", "jpeg", "jpe", "jps", "mpo", "heic", "heif"};
+  return std::ranges::find(kEndings, endingOf(name)) != kEndings.end();
+}
+
+std::string stemOf(const std::string& name) {
+  return lowerCase(name.substr(0, name.rfind('.')));
+}
+
+}  // namespace
+
+std::optional<std::vector<PlaylistEntry>> photosIn(
+    const std::string& url, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source) {
+  constexpr std::size_t kOpened = 16;
+  const bool is_folder = isFolder(url);
+  if (!is_folder && (url.find('*') == url.npos || url.find("://") != url.npos)) return std::nullopt;
+  const fs::path folder = is_folder ? fs::path(url) : fs::path(url).parent_path();
+  const std::string pattern = is_folder ? "*" : fs::path(url).filename().string();
+  std::vector<std::string> photos, names;
+  std::set<std::string> films, moving;  // stems
+  for (const auto& [name, is] : entriesOf(folder.empty() ? "." : folder)) {
+    const bool fits = is == FolderEntry::Kind::File && mediaKindOf(name) != MediaKind::Neither &&
+                      ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
+    if (fits && names.size() < kMostEntries) names.push_back(name);
+    if (fits && isPhoto(name)) photos.push_back(name);
+    if (fits && mediaKindOf(name) == MediaKind::Film) films.insert(stemOf(name));
+  }
+  const auto streamsOf = [&](const std::string& path) {
+    const auto source = make_source(path);
+    return source->open(path) ? source->streams() : std::vector<StreamInfo>{};
+  };
+  const auto holdsMore = [&](const std::string& name) {
+    const auto streams = streamsOf(folder / name);
+    return streams.size() > 1 || (streams.size() == 1 && streams.front().tags.contains("STEREO_MODE"));
+  };
+  bool found = false;
+  std::ranges::sort(photos, naturalLess);
+  for (std::size_t i = 0; i < std::min(photos.size(), kOpened) && !found; ++i) {
+    found = holdsMore(photos[i * photos.size() / std::min(photos.size(), kOpened)]);
+  }
+  if (!found || streamsOf(url).size() > 1) return std::nullopt;
+  for (const std::string& name : photos) {
+    if (films.contains(stemOf(name)) && holdsMore(name)) moving.insert(stemOf(name));
+  }
+  if (moving.empty() && filmsIn(url)) return std::nullopt;
+  std::erase_if(names, [&](const std::string& name) {
+    return mediaKindOf(name) == MediaKind::Film && moving.contains(stemOf(name));
+  });
+  return pairedFilms(folder, std::move(names));
+}
+
+}  // namespace relievo
