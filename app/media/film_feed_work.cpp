@@ -66,8 +66,7 @@ bool FilmFeed::work() {
 }
 
 void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) {
-  const bool may_be_photos = options.depth_url.empty() && !options.frames_per_s;  // else they are a film
-  auto photos = may_be_photos ? photosIn(options.url, backends_.make_source) : std::nullopt;
+  auto photos = photosIn(options, backends_.make_source);
   auto list = photos ? std::move(photos) : readList(options.url);
   const auto opened = list && !*list ? reader_.open(options) : Result<void>{};
   const std::scoped_lock lock(mutex_);

@@ -32,8 +32,11 @@ std::string stemOf(const std::string& name) {
 }  // namespace
 
 std::optional<std::vector<PlaylistEntry>> photosIn(
-    const std::string& url, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source) {
+    const SourceOptions& options, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source) {
   constexpr std::size_t kOpened = 16;
+  const bool is_said = options.packing != Packing::Auto || options.as != nullptr || options.frames_per_s;
+  if (is_said || !options.depth_url.empty()) return std::nullopt;
+  const std::string& url = options.url;
   const bool is_folder = isFolder(url);
   if (!is_folder && (url.find('*') == url.npos || url.find("://") != url.npos)) return std::nullopt;
   const fs::path folder = is_folder ? fs::path(url) : fs::path(url).parent_path();

@@ -157,9 +157,7 @@ std::string trackLines(const ProbeResult& r) {
 
 Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backends& backends) {
   ProbeResult result;
-  if (options.depth_url.empty() && !options.frames_per_s && photosIn(options.url, backends.make_source)) {
-    return failOn(options.url, {ErrorCode::NotFound, 0, kHasPhotos});
-  }
+  if (photosIn(options, backends.make_source)) return failOn(options.url, {ErrorCode::NotFound, 0, kHasPhotos});
   const bool may_be_folder = options.depth_url.empty() && options.packing == Packing::Auto;
   const auto pair = may_be_folder ? filmOverDepth(options.url) : std::nullopt;
   for (const std::string& url : {pair ? pair->film : options.url, pair ? pair->depth : options.depth_url}) {

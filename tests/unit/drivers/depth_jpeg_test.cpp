@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/media/photo_list.h"
+#include "app/media/reading/known_kind.h"
 #include "drivers/photo/photo.h"
 #include "drivers/registry.h"
 #include "tests/support/files.h"
@@ -220,7 +221,7 @@ TEST(DepthJpeg, ASizeThatLiesMakesNoMemory) {
 using MakeSource = std::function<std::unique_ptr<MediaSource>(const std::string&)>;
 std::vector<std::string> listed(const SourceOptions& options, const MakeSource& make = drivers::makeMediaSource) {
   std::vector<std::string> titles;
-  for (const PlaylistEntry& photo : photosIn(options.url, make).value_or(std::vector<PlaylistEntry>{})) {
+  for (const PlaylistEntry& photo : photosIn(options, make).value_or(std::vector<PlaylistEntry>{})) {
     titles.push_back(photo.title);
   }
   return titles;
@@ -240,6 +241,9 @@ TEST(DepthJpeg, AFolderOfPortraitsIsAListOfPhotos) {
   EXPECT_EQ(listed({.url = here}), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10"}));
   EXPECT_EQ(listed({.url = folder / "IMG_*.jpg"}).size(), 3U) << "as a shell has listed them";
   EXPECT_TRUE(listed({.url = folder / "IMG_1*.jpg"}).empty()) << "none of these holds depth";
+  EXPECT_TRUE(listed({.url = here, .packing = Packing::DepthAlone}).empty()) << "the user says how they are read";
+  EXPECT_TRUE(listed({.url = here, .as = findKind("tum")}).empty());
+  EXPECT_TRUE(listed({.url = here, .frames_per_s = 10}).empty());
   std::ofstream(folder / "IMG_9.mov") << "moving photo";
   std::ofstream(folder / "IMG_11.mov") << "film";
   EXPECT_EQ(listed({.url = here}), (std::vector<std::string>{"IMG_2", "IMG_9", "IMG_10", "IMG_11"}));
