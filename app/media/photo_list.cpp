@@ -55,8 +55,11 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
     return source->open(path) ? source->streams() : std::vector<StreamInfo>{};
   };
   const auto holdsMore = [&](const std::string& name) {
-    const auto streams = streamsOf(folder / name);
-    return streams.size() > 1 || (streams.size() == 1 && streams.front().tags.contains("STEREO_MODE"));
+    return std::ranges::any_of(streamsOf(folder / name), [](const StreamInfo& stream) {
+      const auto title = stream.tags.find("TITLE");
+      return stream.tags.contains(kViewTag) || stream.tags.contains("STEREO_MODE") ||
+             (title != stream.tags.end() && title->second == "depth");
+    });
   };
   bool found = false;
   std::ranges::sort(photos, naturalLess);

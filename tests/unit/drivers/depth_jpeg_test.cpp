@@ -264,5 +264,24 @@ TEST(DepthJpeg, APortraitAmongCoversHidesNoFilm) {
   EXPECT_EQ(listed({.url = folder / "*"}).size(), 7U);
 }
 
+// As FFmpeg describes the tiles of a large photo.
+TEST(DepthJpeg, PicturesWithoutAWordAreNoDepthOfAPhoto) {
+  class Tiles : public MediaSource {
+    Result<Description> openSource(const std::string& url) override {
+      Description description;
+      if (url.ends_with(".heic")) description.streams.resize(2);
+      return description;
+    }
+    Result<std::optional<Packet>> readPacket() override { return std::nullopt; }
+    Result<void> seekTo(MediaTime) override { return {}; }
+    void closeSource() noexcept override {}
+    void interrupted() noexcept override {}
+  };
+  const test::TemporaryFolder folder;
+  for (const char* const name : {"1.heic", "2.heic"}) std::ofstream(folder / name) << name;
+  const std::string here = std::filesystem::path(folder / "x").parent_path();
+  EXPECT_TRUE(listed({.url = here}, [](const std::string&) { return std::make_unique<Tiles>(); }).empty());
+}
+
 }  // namespace
 }  // namespace relievo
