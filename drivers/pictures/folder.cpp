@@ -125,24 +125,22 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
   return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
 }
 
-// The colour of depth in a deeper folder: that of the depth's name (KITTI's "image_02"), or the first one with the same
-// folders in it ("frames/a/left" for "disparity/a/left"), of colour by its name if there is one. Empty if there is
-// none.
-std::string colorInside(const std::string& folder, const Listing& listing, const std::string& depth) {
-  if (!depth.starts_with(folder)) return "";
+// The colour of depth in a deeper folder, in folders of this role: the first one with the same folders in it
+// ("frames/a/left" for "disparity/a/left"), or that of the depth's name (KITTI's "image_02"). Empty if there is none.
+PictureFiles colorInside(const std::string& folder, const Listing& listing, Role role, FoundPictures& found) {
+  const std::string& depth = found.depth.folder;
+  if (!depth.starts_with(folder)) return {};
   const std::size_t deeper = depth.find('/', folder.size()) + 1;
-  if (deeper == depth.size()) return "";
-  if (std::ranges::find(listing.folders, folderOf(depth)) != listing.folders.end()) return folderOf(depth);
+  if (deeper == depth.size()) return {};
   std::vector<std::string> names = listing.folders;
+  std::erase_if(names, [role](const std::string& name) { return roleOf(name) != role || isPainted(name); });
   std::ranges::sort(names, naturalLess);
-  for (const Role role : {Role::Color, Role::Unsaid}) {
-    for (const std::string& name : names) {
-      const std::string inner = name + "/" + depth.substr(deeper, depth.size() - deeper - 1);
-      const bool of_role = roleOf(name) == role && !isPainted(name);
-      if (of_role && !listingOf(folder + inner).value_or(Listing{}).pictures.empty()) return inner;
-    }
+  for (const std::string& name : names) {
+    const std::string inner = folder + name + "/" + depth.substr(deeper);
+    if (auto files = picturesIn(inner, Role::Color, found, 0); !files.names.empty()) return files;
   }
-  return "";
+  const bool named = std::ranges::find(names, folderOf(depth)) != names.end();
+  return named ? picturesIn(folder + folderOf(depth) + "/", Role::Color, found) : PictureFiles{};
 }
 
 bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
@@ -151,8 +149,9 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
     return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found);
   };
   found.depth = open(Role::Depth);
-  const std::string view = colorInside(folder, listing, found.depth.folder);
-  found.color = view.empty() ? open(Role::Color) : picturesIn(folder + view + "/", Role::Color, found);
+  found.color = colorInside(folder, listing, Role::Color, found);
+  if (found.color.names.empty()) found.color = open(Role::Color);
+  if (found.color.names.empty()) found.color = colorInside(folder, listing, Role::Unsaid, found);
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
     found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
