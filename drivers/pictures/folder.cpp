@@ -191,15 +191,12 @@ Result<FoundPictures> findInFolder(const std::string& folder, int levels = 2);
 
 // For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results"),
 // or in that of the first of several cameras ("cam_0"). NotFound, or why one below cannot be read.
-Result<FoundPictures> findBelow(const std::string& folder, Listing listing, int levels) {
-  constexpr std::size_t kMostFolders = 16;
+Result<FoundPictures> findAmong(const std::string& folder, const std::vector<std::string>& names, int levels) {
   Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
   std::vector<FoundPictures> views;
   bool cameras = true;
-  if (listing.folders.size() > kMostFolders) return found;
-  std::ranges::sort(listing.folders, naturalLess);
-  for (const std::string& name : listing.folders) {
-    auto below = findInFolder(folder + name + "/", levels - 1);
+  for (const std::string& name : names) {
+    auto below = findInFolder(folder + name + "/", levels);
     if (!below && below.error().code == ErrorCode::Unsupported && !found) found = std::unexpected(below.error());
     if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
     if (below->views) {
@@ -212,6 +209,16 @@ Result<FoundPictures> findBelow(const std::string& folder, Listing listing, int 
     else found = *std::move(below);
   }
   if (!found && views.size() == 1) found = std::move(views.front());
+  return found;
+}
+
+// The same, one folder down, or else as deep as `levels`.
+Result<FoundPictures> findBelow(const std::string& folder, Listing listing, int levels) {
+  constexpr std::size_t kMostFolders = 16;
+  Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
+  if (listing.folders.size() > kMostFolders) return found;
+  std::ranges::sort(listing.folders, naturalLess);
+  for (int deeper = 0; deeper < levels && !found; ++deeper) found = findAmong(folder, listing.folders, deeper);
   return found;
 }
 

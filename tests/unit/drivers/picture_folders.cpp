@@ -26,5 +26,16 @@ TEST_F(Pictures, AFolderWithTheDepthsInnerFoldersIsNotBeforeColour) {
   EXPECT_THAT(read(folder_ / "t").color, ElementsAre("0 t/rgb/1.png"));
 }
 
+TEST_F(Pictures, ANearerRecordingIsBeforeOneInADeeperFolder) {
+  for (const char* kind : {"rgb", "depth"}) {
+    file("a/keyframes/" + std::string(kind) + "/1.png"), file("a/old/part1/" + std::string(kind) + "/1.png");
+    file("b/one/part1/" + std::string(kind) + "/1.png"), file("b/two/part1/" + std::string(kind) + "/1.png");
+  }
+  EXPECT_THAT(read(folder_ / "a").depth, ElementsAre("0 a/keyframes/depth/1.png"));
+  EXPECT_TRUE(read(folder_ / "b").error) << "several";
+  std::filesystem::remove_all(folder_ / "b/one");
+  EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/two/part1/depth/1.png"));
+}
+
 }  // namespace
 }  // namespace relievo
