@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
+#include "drivers/floats/npy_header.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_file.h"
 
@@ -29,6 +31,16 @@ bool isGray16Png(const std::string& path) {
   const auto file = AnsweredFile::open(path);
   return file && file->read(0, head).value_or(0) == head.size() && head[1] == 'P' && head[2] == 'N' && head[3] == 'G' &&
          head[kBits] == 16 && head[kColor] == 0;
+}
+
+// Whether the array is one of a value for each place of a picture, not a pose or a camera's matrix.
+bool isPlane(const std::string& path) {
+  constexpr std::uint64_t kLeast = 16;  // rows and columns
+  std::array<std::uint8_t, npy::kLongestHeader> head{};
+  const auto file = AnsweredFile::open(path);
+  const std::size_t bytes = file ? file->read(0, head).value_or(0) : 0;
+  const auto header = npy::parseHeader(std::span(head).first(bytes));
+  return header && header->pictures == 1 && header->components == 1 && std::min(header->rows, header->cols) >= kLeast;
 }
 
 }  // namespace
@@ -62,7 +74,9 @@ std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vecto
     };
     const auto photo = std::ranges::find_if(
         names, [&](const std::string& name) { return all.contains(besideOf(name)) && isColor(name); });
-    if (photo == names.end() || (ending == "png" && !isGray16Png(folder + besideOf(*photo)))) continue;
+    if (photo == names.end()) continue;
+    const std::string beside = folder + besideOf(*photo);
+    if ((ending == "png" && !isGray16Png(beside)) || (ending == "npy" && !isPlane(beside))) continue;
     const auto depth = std::ranges::partition(names, [&](const auto& name) { return endingOf(name) != ending; });
     std::vector<std::string> taken(depth.begin(), depth.end());
     names.erase(depth.begin(), depth.end());

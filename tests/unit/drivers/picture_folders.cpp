@@ -37,5 +37,24 @@ TEST_F(Pictures, ANearerRecordingIsBeforeOneInADeeperFolder) {
   EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/two/part1/depth/1.png"));
 }
 
+// Poses and the camera's matrix, as numbers of each picture.
+TEST_F(Pictures, ASmallArrayBesideAPictureIsNotItsDepth) {
+  const auto array = [](const std::string& shape) {
+    std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + shape + "), }";
+    text.resize(118, ' ');
+    return std::string("\x93NUMPY\x01\0\x76\0", 10) + text;
+  };
+  for (const char* const shape : {"4, 4", "3, 3", "15, 640", "640, 15", "7,", "32, 32, 32", "32, 32, 3"}) {
+    for (const char* const name : {"0001", "0002"})
+      file("p/" + std::string(name) + ".jpg"), file("p/" + std::string(name) + ".npy", array(shape));
+    EXPECT_EQ(read(folder_ / "p").streams.size(), 1U) << shape;
+    EXPECT_EQ(read(folder_ / "p").color.front(), "0 p/0001.jpg") << shape;
+  }
+  for (const char* const shape : {"16, 16", "480, 640", "480, 640, 1", "1, 480, 640"}) {
+    for (const char* const name : {"0001", "0002"}) file("p/" + std::string(name) + ".npy", array(shape));
+    EXPECT_EQ(read(folder_ / "p").depth.size(), 2U) << shape;
+  }
+}
+
 }  // namespace
 }  // namespace relievo

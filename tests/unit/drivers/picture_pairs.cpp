@@ -173,10 +173,13 @@ TEST_F(Pictures, DatesInOneNumberArePhotos) {
 
 TEST_F(Pictures, ArraysHaveTheirPicturesNames) {
   const std::string gray16 = std::string("\x89PNG\r\n\x1a\n") + std::string(16, '\0') + std::string("\x10\0\0\0\0", 5);
-  file("j/1.jpg"), file("j/1.npy"), file("p/1.png"), file("p/1.npy"), file("g/1.png", gray16), file("g/1.pfm");
-  EXPECT_THAT(read(folder_ / "j").depth, ElementsAre("0 j/1.npy"));
+  const std::string array =
+      std::string("\x93NUMPY\x01\0\x43\0", 10) + "{'descr': '<f4', 'fortran_order': False, 'shape': (480, 640), }   \n";
+  file("j/1.jpg"), file("j/1.npy", array), file("p/1.png"), file("p/1.npy", array);
+  file("g/1.png", gray16), file("g/1.pfm");
+  EXPECT_THAT(read(folder_ / "j").depth, ElementsAre("0 " + array));
   EXPECT_THAT(read(folder_ / "p").color, ElementsAre("0 p/1.png"));
-  EXPECT_THAT(read(folder_ / "p").depth, ElementsAre("0 p/1.npy"));
+  EXPECT_THAT(read(folder_ / "p").depth, ElementsAre("0 " + array));
   EXPECT_TRUE(read(folder_ / "g").depth.empty()) << "depth twice";
 }
 
