@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "hal/media/media_names.h"
 #include "platform/print.h"
@@ -14,6 +16,8 @@
 
 namespace relievo::pictures {
 namespace {
+
+namespace fs = std::filesystem;
 
 // "a/b/rgb/1.png": "rgb" is the folder, "a/b/" the place.
 std::string_view folderIn(std::string_view path) {
@@ -93,9 +97,12 @@ std::optional<double> rateOf(const std::string& color, const std::string& depth)
       {"*_outdoor_*_depth.npy", 0},
       {"*.dpt", 24},
   };
+  std::error_code error;
+  const std::string paths[] = {fs::absolute(color, error).lexically_normal(),
+                               fs::absolute(depth, error).lexically_normal()};
   for (const Layout& layout : kLayouts) {
-    for (const std::string* const path : {&color, &depth}) {
-      if (::fnmatch(layout.names, path->c_str(), 0) == 0) return layout.rate;
+    for (const std::string& path : paths) {
+      if (::fnmatch(layout.names, path.c_str(), 0) == 0) return layout.rate;
     }
   }
   return std::nullopt;

@@ -56,5 +56,15 @@ TEST_F(Pictures, ASmallArrayBesideAPictureIsNotItsDepth) {
   }
 }
 
+TEST_F(Pictures, AKnownLayoutHasItsRateFromWithin) {
+  for (const char* const name : {"000000", "000001"}) file("k/image_2/" + std::string(name) + ".png");
+  const std::filesystem::path before = std::filesystem::current_path();
+  for (const auto& [place, url] : {std::pair{"k", "image_2"}, std::pair{"k/image_2", "."}}) {
+    std::filesystem::current_path(folder_ / place);
+    EXPECT_EQ(read(url).color.back(), "100 k/image_2/000001.png") << url;
+  }
+  std::filesystem::current_path(before);
+}
+
 }  // namespace
 }  // namespace relievo
