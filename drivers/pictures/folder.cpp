@@ -29,6 +29,8 @@ constexpr const char* kHasFilms =
 constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
 constexpr const char* kNoList = "cannot be read; name a list of pictures such as associations.txt";
 
+constexpr std::size_t kMostListed = 2000;  // folders
+
 struct Path {
   std::string folder, name;
   explicit Path(const std::string& path) {
@@ -49,7 +51,10 @@ struct Listing {
   std::size_t films = 0;
   const char* way = nullptr;  // to convert the first of the rest that can be, or the last that says depth
 };
-Result<Listing> listingOf(const std::string& folder) {
+// Lists a folder, if this opening may list one more.
+Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
+  if (may_list == 0) return fail(ErrorCode::NotFound, kNoPictures);
+  --may_list;
   const auto entries = listFolder(folder.empty() ? "." : folder);
   if (!entries) return std::unexpected(entries.error());
   Listing listing;
@@ -94,14 +99,15 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
 
 // The pictures in `folder`, or else in the first of its own folders that has any ("depth/Camera_0"), or of theirs
 // ("disparity/TRAIN/A/0000/left").
-PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found, int levels = 4) {
+PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& found, std::size_t& may_list,
+                        int levels = 4) {
   constexpr std::size_t kMostFolders = 16;
-  auto listing = listingOf(folder).value_or(Listing{});
+  auto listing = listingOf(folder, may_list).value_or(Listing{});
   if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found)};
   std::ranges::sort(listing.folders, naturalLess);
   listing.folders.resize(std::min(listing.folders.size(), levels > 0 ? kMostFolders : 0));
   for (const std::string& name : listing.folders) {
-    auto inner = picturesIn(folder + name + "/", role, found, levels - 1);
+    auto inner = picturesIn(folder + name + "/", role, found, may_list, levels - 1);
     if (!inner.names.empty()) return inner;
   }
   return {folder, {}};
@@ -109,11 +115,12 @@ PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& fou
 
 // Beside depth without colour: the folder whose name says nothing ("frames", "JPEGImages") but whose pictures have most
 // of the depth's names, or at least their number; of equal ones that of photographs. The others are told.
-PictureFiles colorBeside(const std::string& folder, const Listing& listing, FoundPictures& found) {
+PictureFiles colorBeside(const std::string& folder, const Listing& listing, FoundPictures& found,
+                         std::size_t& may_list) {
   std::map<std::string, std::pair<std::size_t, bool>> worth;
   for (const std::string& name : listing.folders) {
     if (roleOf(name) != Role::Unsaid || isPainted(name) || lowerCase(name) == "alpha") continue;
-    const auto pictures = listingOf(folder + name).value_or(Listing{}).pictures;
+    const auto pictures = listingOf(folder + name, may_list).value_or(Listing{}).pictures;
     if (!pictures.empty()) worth[name] = {likeness(pictures, found.depth.names), holdsPhotograph(pictures)};
   }
   const auto best = std::ranges::max_element(worth, {}, [](const auto& entry) { return entry.second; });
@@ -122,12 +129,13 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
   for (const auto& [name, value] : worth) {
     if (name != taken) found.notes.push_back(std::string(name).append(" is left out: ").append(why));
   }
-  return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found);
+  return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found, may_list);
 }
 
 // The colour of depth in a deeper folder, in folders of this role: the first one with the same folders in it
 // ("frames/a/left" for "disparity/a/left"), or that of the depth's name (KITTI's "image_02"). Empty if there is none.
-PictureFiles colorInside(const std::string& folder, const Listing& listing, Role role, FoundPictures& found) {
+PictureFiles colorInside(const std::string& folder, const Listing& listing, Role role, FoundPictures& found,
+                         std::size_t& may_list) {
   const std::string& depth = found.depth.folder;
   if (!depth.starts_with(folder)) return {};
   const std::size_t deeper = depth.find('/', folder.size()) + 1;
@@ -137,27 +145,27 @@ PictureFiles colorInside(const std::string& folder, const Listing& listing, Role
   std::ranges::sort(names, naturalLess);
   for (const std::string& name : names) {
     const std::string inner = folder + name + "/" + depth.substr(deeper);
-    if (auto files = picturesIn(inner, Role::Color, found, 0); !files.names.empty()) return files;
+    if (auto files = picturesIn(inner, Role::Color, found, may_list, 0); !files.names.empty()) return files;
   }
   const bool named = std::ranges::find(names, folderOf(depth)) != names.end();
-  return named ? picturesIn(folder + folderOf(depth) + "/", Role::Color, found) : PictureFiles{};
+  return named ? picturesIn(folder + folderOf(depth) + "/", Role::Color, found, may_list) : PictureFiles{};
 }
 
-bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
+bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictures& found, std::size_t& may_list) {
   const auto open = [&](Role role) -> PictureFiles {
     const std::string name = bestOf(listing.folders, role);
-    return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found);
+    return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found, may_list);
   };
   found.depth = open(Role::Depth);
-  found.color = colorInside(folder, listing, Role::Color, found);
+  found.color = colorInside(folder, listing, Role::Color, found, may_list);
   if (found.color.names.empty()) found.color = open(Role::Color);
-  if (found.color.names.empty()) found.color = colorInside(folder, listing, Role::Unsaid, found);
+  if (found.color.names.empty()) found.color = colorInside(folder, listing, Role::Unsaid, found, may_list);
   if (found.color.names.empty() && !found.depth.names.empty()) {
     const auto stereo = stereoAmong(listing.folders, Named::Folders);
-    found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found)
+    found.color = stereo ? picturesIn(folder + stereo->left + "/", Role::Color, found, may_list)
                          : PictureFiles{folder, oneKind(listing.pictures, Role::Color, found.left_out)};
-    if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", Role::Color, found).names.size();
-    if (found.color.names.empty()) found.color = colorBeside(folder, listing, found);
+    if (stereo) found.left_out += picturesIn(folder + stereo->right + "/", Role::Color, found, may_list).names.size();
+    if (found.color.names.empty()) found.color = colorBeside(folder, listing, found, may_list);
   }
   return !found.color.names.empty() || !found.depth.names.empty();
 }
@@ -174,29 +182,30 @@ bool sortByView(const std::string& folder, const std::vector<std::string>& names
 }
 
 // Two folders of views. KITTI-360's fisheyes (data_rgb) look to either side.
-bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPictures& found) {
+bool sortByViewFolder(const std::string& folder, const Listing& listing, FoundPictures& found, std::size_t& may_list) {
   std::vector<std::string> names = listing.folders;
   std::erase_if(names, [&](const std::string& name) { return isFolder(folder + name + "/data_rgb"); });
   const auto stereo = stereoAmong(names, Named::Folders);
   if (!stereo || !stereo->depth.empty()) return false;
   FoundPictures views{.views = true};
-  views.color = picturesIn(folder + stereo->left + "/", Role::Color, views);
-  views.depth = picturesIn(folder + stereo->right + "/", Role::Color, views);
+  views.color = picturesIn(folder + stereo->left + "/", Role::Color, views, may_list);
+  views.depth = picturesIn(folder + stereo->right + "/", Role::Color, views, may_list);
   if (views.color.names.empty() || views.depth.names.empty()) return false;
   found = std::move(views);
   return true;
 }
 
-Result<FoundPictures> findInFolder(const std::string& folder, int levels = 2);
+Result<FoundPictures> findInFolder(const std::string& folder, std::size_t& may_list, int levels = 2);
 
 // For a folder without pictures of its own: the recording in its only sub-folder that has one ("keyframes", "results"),
 // or in that of the first of several cameras ("cam_0"). NotFound, or why one below cannot be read.
-Result<FoundPictures> findAmong(const std::string& folder, const std::vector<std::string>& names, int levels) {
+Result<FoundPictures> findAmong(const std::string& folder, const std::vector<std::string>& names, std::size_t& may_list,
+                                int levels) {
   Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
   std::vector<FoundPictures> views;
   bool cameras = true;
   for (const std::string& name : names) {
-    auto below = findInFolder(folder + name + "/", levels);
+    auto below = findInFolder(folder + name + "/", may_list, levels);
     if (!below && below.error().code == ErrorCode::Unsupported && !found) found = std::unexpected(below.error());
     if (!below || below->color.names.empty() || below->depth.names.empty()) continue;
     if (below->views) {
@@ -213,26 +222,27 @@ Result<FoundPictures> findAmong(const std::string& folder, const std::vector<std
 }
 
 // The same, one folder down, or else as deep as `levels`.
-Result<FoundPictures> findBelow(const std::string& folder, Listing listing, int levels) {
+Result<FoundPictures> findBelow(const std::string& folder, Listing listing, std::size_t& may_list, int levels) {
   constexpr std::size_t kMostFolders = 16;
   Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
   if (listing.folders.size() > kMostFolders) return found;
   std::ranges::sort(listing.folders, naturalLess);
-  for (int deeper = 0; deeper < levels && !found; ++deeper) found = findAmong(folder, listing.folders, deeper);
+  for (int deeper = 0; deeper < levels && !found; ++deeper)
+    found = findAmong(folder, listing.folders, may_list, deeper);
   return found;
 }
 
-Result<FoundPictures> findInFolder(const std::string& folder, int levels) {
+Result<FoundPictures> findInFolder(const std::string& folder, std::size_t& may_list, int levels) {
   if (auto listed = findListed(folder)) return *std::move(listed);
-  const auto listing = listingOf(folder);
+  const auto listing = listingOf(folder, may_list);
   if (!listing) return std::unexpected(listing.error());
   FoundPictures found;
-  const bool sorted = sortByFolder(folder, *listing, found);
+  const bool sorted = sortByFolder(folder, *listing, found, may_list);
   if (sorted && !found.depth.names.empty() && !found.color.names.empty()) return found;
   const bool goes_down = levels > 0 && listing->pictures.empty() && listing->films == 0;
-  auto below = goes_down ? findBelow(folder, *listing, levels) : fail(ErrorCode::NotFound, kNoPictures);
+  auto below = goes_down ? findBelow(folder, *listing, may_list, levels) : fail(ErrorCode::NotFound, kNoPictures);
   if (below) return below;
-  if (found.depth.names.empty() && sortByViewFolder(folder, *listing, found)) return found;
+  if (found.depth.names.empty() && sortByViewFolder(folder, *listing, found, may_list)) return found;
   if (sorted && below.error().code == ErrorCode::Unsupported) found.notes.emplace_back(below.error().message);
   if (sorted) return found;
   found = {};
@@ -247,7 +257,8 @@ Result<FoundPictures> findInFolder(const std::string& folder, int levels) {
 
 Result<FoundPictures> findByPattern(const Path& path) {
   FoundPictures found{.color = {path.folder, {}}};
-  auto listing = listingOf(path.folder);
+  std::size_t may_list = 1;
+  auto listing = listingOf(path.folder, may_list);
   if (!listing) return std::unexpected(listing.error());
   for (std::string& name : listing->pictures) {
     if (matches(path.name, name)) found.color.names.push_back(std::move(name));
@@ -272,7 +283,8 @@ bool namesPictures(const std::string& url) {
 
 Result<FoundPictures> findPictures(const std::string& url) {
   const std::string path = pathOf(url);
-  if (isFolder(path)) return findInFolder(path.ends_with('/') ? path : path + "/");
+  std::size_t may_list = kMostListed;
+  if (isFolder(path)) return findInFolder(path.ends_with('/') ? path : path + "/", may_list);
   const Path parts(path);
   if (!isRegularFile(path)) return findByPattern(parts);
   if (endingOf(path) != "txt") return FoundPictures{.color = {parts.folder, {parts.name}}};

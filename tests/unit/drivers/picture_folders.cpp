@@ -37,6 +37,18 @@ TEST_F(Pictures, ANearerRecordingIsBeforeOneInADeeperFolder) {
   EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/two/part1/depth/1.png"));
 }
 
+// 4096 folders, of which the last one has a picture.
+TEST_F(Pictures, AFolderOfVeryManyIsNotSearchedToItsEnd) {
+  for (int k = 0; k < 16 * 16 * 16; ++k) {
+    const auto part = [k](int shift) { return std::to_string(10 + (k >> shift & 15)) + "/"; };
+    std::filesystem::create_directories(folder_ / ("m/rgb/" + part(8) + part(4) + part(0)));
+  }
+  file("m/rgb/25/25/25/1.png"), file("m/depth/1.png");
+  EXPECT_EQ(read(folder_ / "m").streams.size(), 1U);
+  file("m/rgb/10/10/10/1.png");
+  EXPECT_EQ(read(folder_ / "m").streams.size(), 2U);
+}
+
 // Poses and the camera's matrix, as numbers of each picture.
 TEST_F(Pictures, ASmallArrayBesideAPictureIsNotItsDepth) {
   const auto array = [](const std::string& shape) {
