@@ -9,8 +9,8 @@
 namespace relievo {
 namespace {
 
-// The frame's matrix; BT.601 if it states none, whatever its size. Cameras and editors state theirs; a program that
-// draws depth in colours hands RGB to OpenCV or FFmpeg, which convert it by BT.601 and state nothing.
+// The frame's matrix; BT.601 if it states none, whatever its size: a program that draws depth in colours mostly hands
+// RGB to OpenCV or FFmpeg, which convert it so. Of a film, the reader has stated the matrix that its colours fit.
 LumaWeights weightsOf(const Frame& frame) noexcept {
   return frame.matrix == ColorMatrix::Unspecified ? LumaWeights{} : lumaWeights(frame);
 }

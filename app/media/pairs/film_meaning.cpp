@@ -117,7 +117,7 @@ Result<void> FilmMeaning::readTrack(const Frame& first, const Frame& color) {
     showViews(Packing::StereoTracks, "the film's two tracks are");
     return {};
   }
-  lookForCode(*look);
+  lookForColors(*look);
   const bool photo = colored && clues_.code == DepthCode::Luma && packedOrder(*look) == SampleOrder::AsStored;
   if (guessed && photo && !film_.exchanged && !wants_exchange_ && lookAt(color).gray >= kAllGray) {
     wants_exchange_ = true;

@@ -64,6 +64,7 @@ class FilmMeaning {
   [[nodiscard]] Result<std::optional<Frame>> statedOrder(const Frame& first);
   // In meaning_halves.cpp.
   void lookForCode(const Frame& look);
+  void lookForColors(Frame& depth);
   void lookForHalves(const StreamInfo& color, const std::deque<Frame>& pictures);
   void takeHalves(FoundPacking found, const Frame& look);
   [[nodiscard]] Result<void> describeAlone(const StreamInfo& track, const Frame& picture);

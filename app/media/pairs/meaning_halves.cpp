@@ -88,6 +88,13 @@ void FilmMeaning::lookForCode(const Frame& look) {
           : print("%.0f %% of the depth lies on the colour map %s", 100 * map->share, name(map->code)));
 }
 
+// Finds the code and, of depth in colours, the matrix, which the picture then states.
+void FilmMeaning::lookForColors(Frame& depth) {
+  lookForCode(depth);
+  form_.matrix = matrixOf(depth, clues_.code);
+  form_.stateMatrix(depth);
+}
+
 // If nothing states where the depth is and there is only one track, the picture itself may show it.
 void FilmMeaning::lookForHalves(const StreamInfo& color, const std::deque<Frame>& pictures) {
   const SourceOptions& options = film_.options;
@@ -134,7 +141,7 @@ void FilmMeaning::takeHalves(FoundPacking found, const Frame& look) {
 // The samples are put in order as they are read.
 Result<void> FilmMeaning::describeAlone(const StreamInfo& track, const Frame& picture) {
   Frame look = scout_.tellingPicture(picture, film_.options.url, track.index);
-  lookForCode(look);
+  lookForColors(look);
   takeTags(track);
   const KnownKind* const kind = kindOf(clues_, look);
   form_.order = orderOf(kind, look);
@@ -155,8 +162,8 @@ Result<void> FilmMeaning::describeHalves(const StreamInfo& color, const Frame& p
   if (form_.seam > 0) {
     clues_.why.push_back(print("the %d white columns between the halves are left out", form_.seam));
   }
-  const auto whole = splitPacked(look, packing, DepthCode::Hue, GrayFrom::Luma, form_.seam);
-  if (whole) lookForCode(whole->depth);
+  auto whole = splitPacked(look, packing, DepthCode::Hue, GrayFrom::Luma, form_.seam);
+  if (whole) lookForColors(whole->depth);
   if (whole && clues_.code == DepthCode::Luma && film_.options.as == nullptr) form_.order = packedOrder(whole->depth);
   const auto seen = form_.halvesOf(look, packing);
   const auto halves = form_.halvesOf(picture, packing);

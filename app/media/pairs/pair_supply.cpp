@@ -135,6 +135,7 @@ Result<FramePair> PairSupply::pairFor(Frame color) {
   if (film_.info.packing == Packing::StereoTracks) {
     return FramePair{std::move(color), {}, true, {}, std::move(match->depth)};
   }
+  form_.stateMatrix(match->depth);  // the first was read before it was found
   return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
 }
 

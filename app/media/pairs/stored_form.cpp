@@ -12,6 +12,7 @@ namespace relievo {
 Result<Halves> StoredForm::halvesOf(const Frame& stored, Packing packing) const {
   const bool bytes = order != SampleOrder::AsStored && stored.model == ColorModel::Rgb;
   auto halves = splitPacked(stored, packing, bytes ? DepthCode::Hue : code, gray, seam);
+  if (halves) stateMatrix(halves->depth);
   if (!halves || !bytes) return halves;
   auto ordered = inOrder(halves->depth, order);
   if (!ordered) return std::unexpected(ordered.error());
@@ -21,7 +22,12 @@ Result<Halves> StoredForm::halvesOf(const Frame& stored, Packing packing) const 
 
 Result<Frame> StoredForm::ownDepth(const Frame& stored) {
   auto ordered = inOrder(stored, order);
+  if (ordered) stateMatrix(*ordered);
   return ordered && registrar ? registrar->registered(*ordered) : std::move(ordered);
+}
+
+void StoredForm::stateMatrix(Frame& depth) const noexcept {
+  if (depth.model == ColorModel::Yuv && depth.matrix == ColorMatrix::Unspecified) depth.matrix = matrix;
 }
 
 Result<Frame> StoredForm::depthIn(const Frame& stored, Packing packing) {
@@ -29,6 +35,7 @@ Result<Frame> StoredForm::depthIn(const Frame& stored, Packing packing) {
   const bool in_yuv = stored.model == ColorModel::Yuv && gray == GrayFrom::Luma;
   auto halves = in_yuv ? splitPacked(stored, packing, DepthCode::Hue, GrayFrom::Luma, seam) : halvesOf(stored, packing);
   if (!halves) return std::unexpected(halves.error());
+  stateMatrix(halves->depth);
   return std::move(halves->depth);
 }
 
@@ -36,6 +43,7 @@ Result<std::optional<FramePair>> StoredForm::pairIn(Frame& color, const FilmInfo
   if (info.packing == Packing::DepthAlone) {
     auto ordered = inOrder(color, order);
     if (!ordered) return std::unexpected(ordered.error());
+    stateMatrix(*ordered);
     Frame shown = depthPicture(*ordered, info.calibration.calibration);
     return FramePair{std::move(shown), std::move(*ordered), true, {}, {}};
   }

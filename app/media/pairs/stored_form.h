@@ -21,7 +21,11 @@ struct StoredForm {
   // The pair in one picture, which is used up; nullopt if its depth or second view is not in it.
   [[nodiscard]] Result<std::optional<FramePair>> pairIn(Frame& color, const FilmInfo& info) const;
 
+  // Gives depth in colours that states no matrix the one that was found.
+  void stateMatrix(Frame& depth) const noexcept;
+
   DepthCode code = DepthCode::Luma;
+  ColorMatrix matrix = ColorMatrix::Unspecified;  // of depth in colours
   // Depth that is packed into the colour's picture.
   GrayFrom gray = GrayFrom::Luma;
   int seam = 0;  // columns of a margin between the halves

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -23,6 +24,18 @@ constexpr double kBlack = 0.06;
 // A gray picture lies on no curve but touches some; nearly all its samples have less chroma than this.
 constexpr double kGrayChroma = 0.04, kGrayShare = 0.8;
 
+// The matrices that a picture may be by. Programs that draw depth in colours hand RGB to OpenCV or FFmpeg, which
+// convert it by BT.601, or convert it by BT.709 as video of that size has it, and often state neither.
+std::vector<ColorMatrix> matricesOf(const Frame& picture) {
+  if (picture.model != ColorModel::Yuv || picture.matrix != ColorMatrix::Unspecified) return {picture.matrix};
+  return {ColorMatrix::Bt601, ColorMatrix::Bt709};
+}
+
+Frame byMatrix(Frame picture, ColorMatrix matrix) {
+  picture.matrix = matrix;
+  return picture;
+}
+
 std::vector<YuvColor> litSamples(const Frame& picture) {
   const ColorSamples colors(picture);
   const int across = std::min(kAcross, picture.width), down = std::min(kDown, picture.height);
@@ -35,6 +48,19 @@ std::vector<YuvColor> litSamples(const Frame& picture) {
     }
   }
   return static_cast<double>(lit.size()) < kLeastLit * across * down ? std::vector<YuvColor>{} : lit;
+}
+
+// The median; `distances` are put in another order.
+double middleOf(std::vector<float>& distances) {
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return static_cast<double>(*middle);
+}
+
+bool isGray(const std::vector<YuvColor>& lit) {
+  const auto gray = std::ranges::count_if(
+      lit, [](const YuvColor& color) { return std::hypot(color.u, color.v) < static_cast<float>(kGrayChroma); });
+  return static_cast<double>(gray) > kGrayShare * static_cast<double>(lit.size());
 }
 
 std::optional<ColorMapFit> fit(DepthCode code, const std::vector<YuvColor>& lit) {
@@ -52,9 +78,7 @@ std::optional<ColorMapFit> fit(DepthCode code, const std::vector<YuvColor>& lit)
   const auto count = static_cast<double>(lit.size());
   const double spread = std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
   if (on_curve < kLeastShare * count || spread < kLeastSpread) return std::nullopt;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return ColorMapFit{code, static_cast<double>(*middle), on_curve / count};
+  return ColorMapFit{code, middleOf(distances), on_curve / count};
 }
 
 // How many samples on the curve have each entry of the map, 0 to 255.
@@ -78,16 +102,32 @@ std::vector<double> entriesOf(const Frame& depth, DepthCode code) {
 
 std::optional<ColorMapFit> bestColorMap(const Frame& picture) {
   if (picture.empty() || picture.model == ColorModel::Gray) return std::nullopt;
-  const std::vector<YuvColor> lit = litSamples(picture);
-  const auto gray = std::count_if(lit.begin(), lit.end(), [](const YuvColor& color) {
-    return std::hypot(color.u, color.v) < static_cast<float>(kGrayChroma);
-  });
-  if (lit.empty() || static_cast<double>(gray) > kGrayShare * static_cast<double>(lit.size())) return std::nullopt;
   std::optional<ColorMapFit> best;
-  for (const DepthCode code : kDepthCodes) {
-    if (code == DepthCode::Luma) continue;
-    const auto found = fit(code, lit);
-    if (found && (!best || found->residual < best->residual)) best = found;
+  for (const ColorMatrix matrix : matricesOf(picture)) {
+    const std::vector<YuvColor> lit = litSamples(byMatrix(picture, matrix));
+    if (lit.empty() || isGray(lit)) return std::nullopt;
+    for (const DepthCode code : kDepthCodes) {
+      if (code == DepthCode::Luma) continue;
+      const auto found = fit(code, lit);
+      if (found && (!best || found->residual < best->residual)) best = found;
+    }
+  }
+  return best;
+}
+
+ColorMatrix matrixOf(const Frame& depth, DepthCode code) {
+  const std::vector<ColorMatrix> matrices = matricesOf(depth);
+  if (matrices.size() == 1 || code == DepthCode::Luma) return depth.matrix;
+  const ColorCurve& curve = curveOf(code);
+  ColorMatrix best = depth.matrix;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ColorMatrix matrix : matrices) {
+    std::vector<float> distances;
+    for (const YuvColor& color : litSamples(byMatrix(depth, matrix)))
+      distances.push_back(curve.nearest(color).distance);
+    const double residual = distances.empty() ? least : middleOf(distances);
+    if (residual < least) best = matrix;
+    least = std::min(least, residual);
   }
   return best;
 }

@@ -16,7 +16,12 @@ struct ColorMapFit {
 };
 
 // The best fit among about ten thousand evenly spaced samples. Nullopt if the picture is gray, if less than nine tenths
-// of the samples that are not black lie on any curve, or if they are of one colour.
+// of the samples that are not black lie on any curve, or if they are of one colour. A picture that states no matrix is
+// tried by BT.601 and by BT.709.
 [[nodiscard]] std::optional<ColorMapFit> bestColorMap(const Frame& picture);
+
+// The matrix of depth in this code's colours: as stated, else BT.601 or BT.709, by which its colours lie nearer to the
+// code's curve. Unspecified if it shows nothing, or for luma.
+[[nodiscard]] ColorMatrix matrixOf(const Frame& depth, DepthCode code);
 
 }  // namespace relievo

@@ -9,10 +9,12 @@
 #include <functional>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "app/media/pair_reader.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/scene/height_field.h"
+#include "platform/print.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/ffmpeg_backends.h"
 
@@ -45,14 +47,20 @@ Rgb rainbow(double s) {
   return {std::min(1.0, std::abs(2 * s - 0.5)), std::sin(std::numbers::pi * s), std::cos(std::numbers::pi * s / 2)};
 }
 
-// Limited BT.601, as a small picture is taken to be; chroma is that of the sample at the left and above.
-ClipTrack coded(const std::function<Rgb(int, int)>& color, const char* crf) {
+struct Weights {
+  double red, blue;
+};
+constexpr Weights kBt601{0.299, 0.114}, kBt709{0.2126, 0.0722};
+
+// Limited YUV that states no matrix; chroma is that of the sample at the left and above.
+ClipTrack coded(const std::function<Rgb(int, int)>& color, const char* crf, const Weights& by = kBt601) {
   ClipTrack track{.codec = "libx264", .pix_fmt = "yuv420p", .width = kCols, .height = kRows, .frames = 2};
   track.options = {{"crf", crf}};
-  track.sample = [color](int k, int c, int r, int) {
+  track.sample = [color, by](int k, int c, int r, int) {
     const Rgb at = k == 0 ? color(c, r) : color(2 * c, 2 * r);
-    const double y = 0.299 * at[0] + 0.587 * at[1] + 0.114 * at[2];
-    const double codes[] = {16 + 219 * y, 128 + 224 * (at[2] - y) / 1.772, 128 + 224 * (at[0] - y) / 1.402};
+    const double y = by.red * at[0] + (1 - by.red - by.blue) * at[1] + by.blue * at[2];
+    const double codes[] = {16 + 219 * y, 128 + 112 * (at[2] - y) / (1 - by.blue),
+                            128 + 112 * (at[0] - y) / (1 - by.red)};
     return static_cast<std::uint32_t>(std::lround(codes[k]));
   };
   return track;
@@ -99,19 +107,59 @@ TEST(ColorMapFit, FindsTheMapOfACodedPictureAndReadsItsDepth) {
   }
 }
 
-// As OpenCV and FFmpeg write it from RGB, however large; players take such a film to be by BT.709.
-TEST(ColorMapFit, ALargeFilmThatStatesNoMatrixIsReadByBt601) {
-  constexpr int kLarge = 8;
-  ClipTrack track = coded([](int c, int r) { return jet(depthAt(c / kLarge, r / kLarge)); }, "18");
-  track.width = kLarge * kCols;
+constexpr int kLarge = 7;  // 784 rows: players take such a film that states no matrix to be by BT.709
+
+// A film of depth in a map's colours by either matrix, without or with a photo left of it.
+ClipTrack largeFilm(Rgb (*map)(double), const Weights& by, bool beside_photo) {
+  const auto color = [=](int c, int r) {
+    const int x = c / kLarge - (beside_photo ? kCols : 0), y = r / kLarge;
+    return x < 0 ? Rgb{0.5 + 0.2 * std::sin(0.3 * x), 0.45 + 0.001 * y, 0.4 + 0.1 * std::cos(0.2 * y)}
+                 : map(depthAt(x, y));
+  };
+  ClipTrack track = coded(color, "18", by);
+  track.width = kLarge * kCols * (beside_photo ? 2 : 1);
   track.height = kLarge * kRows;
-  const Frame picture = firstPicture(track, DepthCode::Jet);
-  ASSERT_EQ(picture.height, kLarge * kRows);
-  ASSERT_EQ(picture.matrix, ColorMatrix::Unspecified);
-  const auto fit = bestColorMap(picture);
-  ASSERT_TRUE(fit);
-  EXPECT_EQ(fit->code, DepthCode::Jet);
-  EXPECT_LT(fit->residual, 0.02);
+  return track;
+}
+
+// The share of the samples of two pictures whose depth is off; all, if the film is not read as this code.
+double offIn(const SourceOptions& options, DepthCode code) {
+  PairReader reader(kFfmpeg);
+  if (!reader.open(options) || reader.info().calibration.calibration.code != code) return 1;
+  int off = 0;
+  for (int picture = 0; picture < 2; ++picture) {
+    const auto pair = reader.next();
+    if (!pair || !*pair || (*pair)->depth.height != kLarge * kRows) return 1;
+    const auto field = HeightField::make((*pair)->depth, {.code = code}, kUnit).value();
+    for (int i = 0; i < kCols * kRows; ++i) {
+      const int c = i % kCols, r = i / kCols;
+      const double height = field.heightMm(kLarge * c + kLarge / 2, kLarge * r + kLarge / 2);
+      off += std::abs(height - depthAt(c, r)) < 0.03 ? 0 : 1;
+    }
+  }
+  return 0.5 * off / (kCols * kRows);
+}
+
+// OpenCV and FFmpeg convert RGB by BT.601 however large the picture is; other programs as their size has it.
+TEST(ColorMapFit, AFilmThatStatesNoMatrixIsReadByTheOneThatItsColoursFit) {
+  const struct {
+    DepthCode code;
+    Rgb (*color)(double);
+  } maps[] = {{DepthCode::Hue, hue}, {DepthCode::Jet, jet}, {DepthCode::Rainbow, rainbow}};
+  const TemporaryFolder folder;
+  const std::string alone = folder / "depth.mkv", half = folder / "half.mkv", color = folder / "color.mkv";
+  makeClip(color, {{.pix_fmt = "yuv420p", .frames = 2}});
+  for (const auto& [code, map] : maps) {
+    for (const Weights& by : {kBt601, kBt709}) {
+      const std::string what = print("%s, red %g", name(code), by.red);
+      makeClip(alone, {largeFilm(map, by, false)});
+      makeClip(half, {largeFilm(map, by, true)});
+      EXPECT_LT(offIn({.url = alone}, code), 0.02) << what;
+      EXPECT_LT(offIn({.url = color, .depth_url = alone}, code), 0.02) << what;
+      EXPECT_LT(offIn({.url = color, .depth_url = alone, .depth_code = code}, code), 0.02) << what;
+      EXPECT_LT(offIn({.url = half}, code), 0.02) << what;
+    }
+  }
 }
 
 TEST(ColorMapFit, RefusesPhotosGrayNoiseBlackAndOneColour) {
