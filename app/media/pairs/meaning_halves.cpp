@@ -131,11 +131,7 @@ void FilmMeaning::takeHalves(FoundPacking found, const Frame& look) {
     if (form_.gray == GrayFrom::Red) clues_.pictures.merge(redAsLuma(look));
   }
   clues_.why.push_back(std::move(found.why));
-  if (found.parted) {
-    film_.info.notes.emplace_back(
-        "a part of the colour looks like depth too: the film may show three pictures or more; keep two of one size, "
-        "such as ffmpeg -i FILE -vf crop=WIDTH:HEIGHT:0:0 -crf 12 OUT.mkv");
-  }
+  if (!found.note.empty()) film_.info.notes.push_back(std::move(found.note));
 }
 
 // The samples are put in order as they are read.

@@ -100,34 +100,36 @@ bool isParted(const Frame& colored) {
   for (const auto& [packing, between] : {std::pair{Packing::SideBySide, colored.width / 3}, {Packing::TopBottom, 0}}) {
     const auto ends = halvesOf(colored, packing, between);
     if (!ends) continue;
-    if (found(ends->first, ends->second, false, packing, "") || found(ends->second, ends->first, false, packing, "")) {
+    if (found(ends->first, ends->second, false, packing, "") || found(ends->second, ends->first, false, packing, ""))
       return true;
-    }
   }
   return false;
 }
 
 // True if the lower half of a half of hues is a mask of black and pure red, which codes in blue may lie beside.
-bool isAboveMask(const Frame& hues) noexcept {
+bool isAboveMask(const Frame& hues) {
   constexpr double kNearlyAll = 0.95, kLeast = 0.02;
   const auto parts = halvesOf(hues, Packing::TopBottom, 0);
-  if (!parts || !isHue(lookAt(parts->first)) || lookAt(parts->first).dark > kLeast) return false;
+  if (!parts) return false;
+  if (const PictureLook above = lookAt(parts->first); !isHue(above) || above.dark > kLeast) return false;
   double black = 0, red = 0, blue = 0, all = 0;
   visit(parts->second, [&](int c, int r) {
     const Color color = colorAt(parts->second, c, r);
-    const bool is_red = color.red > kBright, is_blue = color.blue > kBright;
     ++all;
     if (color.green > kRedAlone) return;
-    red += is_red ? 1 : 0;
-    blue += is_blue ? 1 : 0;
+    red += color.red > kBright ? 1 : 0;
+    blue += color.blue > kBright ? 1 : 0;
     black += std::max(color.red, color.blue) < kRedAlone ? 1 : 0;
   });
   return black + red + blue >= kNearlyAll * all && std::min(black, red) >= kLeast * all;
 }
 
-// What a user can make of such a film.
-constexpr const char* kMetavido =
-    "; below it is a mask, as in Metavido's films: keep depth and colour, ffmpeg -i FILE -filter_complex "
+// What a user can make of such films.
+constexpr const char* kParted =
+    "a part of the colour looks like depth too: the film may show three pictures or more; keep two of one size, such "
+    "as ffmpeg -i FILE -vf crop=WIDTH:HEIGHT:0:0 -crf 12 OUT.mkv";
+constexpr const char* kMasked =
+    "below the depth is a mask, as in Metavido's films: keep depth and colour, ffmpeg -i FILE -filter_complex "
     "\"crop=iw/2:ih/2:0:0[d];[0:v]crop=iw/2:ih:iw/2:0,scale=iw:ih/2[c];[d][c]hstack\" -crf 12 OUT.mkv";
 
 }  // namespace
@@ -287,11 +289,8 @@ std::optional<FoundPacking> findPacking(const Frame& picture) {
     const Frame& colored = is ? halves->first : halves->second;
     if (!is) is = found(halves->first, halves->second, breaks, way.first, way.first_where);
     if (!is) continue;
-    is->parted = isParted(colored);
-    if (is->packing == Packing::SideBySideDepthFirst && is->code == DepthCode::Hue && isAboveMask(halves->first)) {
-      is->why += kMetavido;
-      is->parted = true;
-    }
+    const bool hues_left = is->packing == Packing::SideBySideDepthFirst && is->code == DepthCode::Hue;
+    is->note = hues_left && isAboveMask(halves->first) ? kMasked : isParted(colored) ? kParted : "";
     return is;
   }
   return std::nullopt;

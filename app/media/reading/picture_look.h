@@ -61,8 +61,8 @@ struct FoundPacking {
   Packing packing = Packing::Tracks;
   DepthCode code = DepthCode::Luma;
   GrayFrom gray = GrayFrom::Luma;
-  std::string why;      // one line
-  bool parted = false;  // a part of one half looks like another kind of picture: a third one
+  std::string why;   // one line
+  std::string note;  // what to do with a film that shows a third picture too, one line; empty if it does not
 };
 // Finds colour and depth in the two halves of one picture: one half is a photo, the other is gray or consists of pure
 // hues. Nullopt if the halves do not differ that clearly.
