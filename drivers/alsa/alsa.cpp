@@ -232,7 +232,8 @@ class AlsaOutput final : public AudioOutput {
 
   void closeOutput() noexcept override {
     if (card_ == nullptr) return;
-    static_cast<void>(server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); }));
+    const auto closed = server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); });
+    stuck_ = !closed && closed.error().code == ErrorCode::Timeout;
     card_ = nullptr;
   }
 

@@ -75,6 +75,17 @@ TEST(AlsaOutput, AWriteThatDoesNotReturnLosesTheCardUntilTheServerAnswers) {
   EXPECT_TRUE(audio->write(std::vector<float>(960)));
 }
 
+TEST(AlsaOutput, ACloseThatDoesNotReturnIsForgottenOnceTheServerAnswers) {
+  ManualClock clock;
+  const auto [audio, unplug] = makeFakeCard(clock, true);
+  ASSERT_TRUE(audio->open({}));
+  test::sound_server_stalls = true;
+  audio->close();
+  EXPECT_EQ(audio->open({}).error().code, ErrorCode::Timeout);
+  test::sound_server_stalls = false;
+  EXPECT_TRUE(opensAgain(*audio));
+}
+
 TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
   ManualClock clock;
   const auto [audio, unplug] = makeFakeCard(clock, true);

@@ -66,6 +66,7 @@ snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* a
 }
 
 int close(snd_pcm_ioplug_t* io) {
+  waitForServer();
   delete static_cast<Stream*>(io->private_data);
   return 0;
 }

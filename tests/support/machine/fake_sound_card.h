@@ -20,8 +20,8 @@ struct FakeSoundCard {
 };
 [[nodiscard]] FakeSoundCard& fakeSoundCard() noexcept;
 
-// While true, and for at most 20 s, opening the card and writing to it do not return: as with a sound server that does
-// not answer.
+// While true, and for at most 20 s, opening and closing the card and writing to it do not return: as with a sound
+// server that does not answer.
 inline std::atomic<bool> sound_server_stalls{false};
 
 // Call before ALSA is used: it then finds only these cards.
