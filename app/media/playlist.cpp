@@ -130,7 +130,9 @@ std::string pathOfFileUrl(std::string_view url) {
 
 std::string sourceNamed(const std::string& words) {
   if (words.starts_with("file:///")) return pathOfFileUrl(words);
-  return words.starts_with("file:") && !words.starts_with("file://") ? words.substr(5) : words;
+  if (!words.starts_with("file:") || words.starts_with("file://")) return words;
+  const std::string plain = words.substr(5), decoded = pathOfFileUrl(words);  // Java writes file:/two%20words.mkv
+  return !isThere(plain) && isThere(decoded) ? decoded : plain;               // and "%04d" names numbered pictures
 }
 
 bool mayBePlaylist(std::string_view url) {

@@ -80,6 +80,12 @@ TEST(Playlist, OneInAFileOpensFilesButNoTricks) {
 TEST(Playlist, APersonMayNameAFileByItsAddress) {
   EXPECT_EQ(sourceNamed("file:///films/two%20words.mkv"), "/films/two words.mkv");
   EXPECT_EQ(sourceNamed("file:films/100%.mkv"), "films/100%.mkv");
+  EXPECT_EQ(sourceNamed("file:/films/color-%04d.png"), "/films/color-%04d.png") << "numbered pictures";
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "two words.mkv") << "a film";
+  EXPECT_EQ(sourceNamed("file:" + (folder / "two%20words.mkv")), folder / "two words.mkv") << "as Java writes it";
+  std::ofstream(folder / "two%20words.mkv") << "a film";
+  EXPECT_EQ(sourceNamed("file:" + (folder / "two%20words.mkv")), folder / "two%20words.mkv") << "its own name";
   for (const char* words : {"films/a.mkv", "file", "v4l2:/dev/video0", "http://host/file:a"}) {
     EXPECT_EQ(sourceNamed(words), words);
   }
