@@ -7,7 +7,9 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <span>
 #include <vector>
 
 #include "hal/key_names.h"
@@ -171,8 +173,9 @@ const KeyTable::Binding* KeyTable::row(std::size_t table, std::uint16_t code) co
 const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) const noexcept {
   const std::uint16_t alone = withoutShiftAndCtrl(code);
   const auto without_shift = static_cast<std::uint16_t>(code & ~kWithShift);          // Ctrl and + is Ctrl, Shift and =
-  const bool is_sign = (code & kWithShift) != 0 && alone >= KEY_1 && alone <= KEY_8;  // "&" is not a remote control's 7
-  for (const std::uint16_t known : {code, without_shift, alone, is_sign ? alone : twinOf(alone)}) {
+  const bool is_sign = (code & kWithShift) != 0 && alone >= KEY_1 && alone <= KEY_0;  // "&" is not 7, nor is "(" 9
+  const std::array likely{code, without_shift, alone, twinOf(alone)};
+  for (const std::uint16_t known : std::span(likely).first(is_sign ? 1 : likely.size())) {
     for (const std::size_t table : {static_cast<std::size_t>(state), kAlways}) {
       if (const Binding* binding = row(table, known)) return binding->press || binding->hold ? binding : nullptr;
     }

@@ -305,7 +305,11 @@ TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_RIGHT | kWithCtrl)), "seek +5");
   EXPECT_FALSE(pressed(*table, State::Playing, KEY_Q | kWithCtrl)) << "it is told to mean nothing";
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_7)), "seek 70%");
-  EXPECT_FALSE(pressed(*table, State::Playing, KEY_7 | kWithShift)) << "another sign in most layouts";
+  EXPECT_TRUE(pressed(*table, State::Playing, KEY_9));
+  for (const int digit : {KEY_7, KEY_8, KEY_9, KEY_0}) {
+    EXPECT_FALSE(pressed(*table, State::Playing, static_cast<std::uint16_t>(digit | kWithShift)))
+        << keyName(static_cast<std::uint16_t>(digit)) << ": another sign in most layouts";
+  }
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_Q)), "quit");
 }
 
