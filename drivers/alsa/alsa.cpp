@@ -50,9 +50,7 @@ Error openError(int code) noexcept {
 class Card {
  public:
   explicit Card(const AudioFormat& asked) : wished(asked), format(asked) {}
-  ~Card() {
-    if (pcm_ != nullptr) snd_pcm_close(pcm_);
-  }
+  ~Card() { close(); }
   Card(const Card&) = delete;
   Card& operator=(const Card&) = delete;
 
@@ -60,6 +58,7 @@ class Card {
     refused = snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
     if (refused < 0) pcm_ = nullptr;
     else unfit = configure();
+    if (unfit < 0) close();
     done = true;
   }
 
@@ -114,6 +113,10 @@ class Card {
   Duration buffer{0};
 
  private:
+  void close() {
+    if (pcm_ != nullptr) snd_pcm_close(std::exchange(pcm_, nullptr));
+  }
+
   int configure() {
     snd_pcm_hw_params_t* hardware = nullptr;
     snd_pcm_hw_params_alloca(&hardware);
@@ -167,7 +170,11 @@ class AlsaOutput final : public AudioOutput {
   AlsaOutput(std::string device, const Clock& clock) : device_(std::move(device)), clock_(clock) {
     snd_lib_error_set_handler(printNothing);
   }
-  ~AlsaOutput() override { close(); }
+  ~AlsaOutput() override {
+    close();
+    card_ = std::move(late_);
+    closeOutput();
+  }
   AlsaOutput(const AlsaOutput&) = delete;
   AlsaOutput& operator=(const AlsaOutput&) = delete;
 
@@ -176,12 +183,14 @@ class AlsaOutput final : public AudioOutput {
  private:
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
     constexpr Error kNotYet{ErrorCode::Timeout, 0, kSilentServer};
-    std::shared_ptr<Card> card = late_;
-    if (card != nullptr && !card->done) return std::unexpected(kNotYet);
-    late_ = nullptr;
+    if (late_ != nullptr && !late_->done) return std::unexpected(kNotYet);
+    std::shared_ptr<Card> card = std::exchange(late_, nullptr);
     if (card == nullptr || card->wished.rate_hz != wished.rate_hz || card->wished.channels != wished.channels) {
-      card = std::make_shared<Card>(wished);
-      const auto asked = server_.ask(kServer, [card, device = device_] { card->open(device); });
+      std::shared_ptr<Card> other = std::exchange(card, std::make_shared<Card>(wished));
+      const auto asked = server_.ask(kServer, [card, other = std::move(other), device = device_]() mutable {
+        other.reset();
+        card->open(device);
+      });
       if (!asked && asked.error().code == ErrorCode::Timeout) {
         late_ = stuck_ ? nullptr : card;  // while an earlier call hangs, this one was not made
         return std::unexpected(kNotYet);
@@ -240,13 +249,12 @@ class AlsaOutput final : public AudioOutput {
   // What `call` returns, which must own all that it uses.
   template <class Call>
   auto answerOf(Call call) -> Result<decltype(call(std::declval<Card&>()))> {
-    auto answer = std::make_shared<std::optional<decltype(call(std::declval<Card&>()))>>();
-    const auto asked =
-        server_.ask(kServer, [card = card_, answer, call = std::move(call)] { answer->emplace(call(*card)); });
-    if (asked) return std::move(**answer);
-    stuck_ = asked.error().code == ErrorCode::Timeout;
+    const auto answer =
+        relievo::answerOf(kServer, [card = card_, call = std::move(call)] { return call(*card); }, server_);
+    if (answer) return answer;
+    stuck_ = answer.error().code == ErrorCode::Timeout;
     card_ = nullptr;  // the helper thread still holds it
-    return fail(ErrorCode::Lost, stuck_ ? kSilentServer : asked.error().message);
+    return fail(ErrorCode::Lost, stuck_ ? kSilentServer : answer.error().message);
   }
 
   static Error lost(int code) noexcept {

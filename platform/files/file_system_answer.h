@@ -67,9 +67,10 @@ class CancelsAnswers {
 
 // What `question` returns. It must own all that it uses.
 template <class Question>
-[[nodiscard]] auto answerOf(const std::string& path, Question question) -> Result<decltype(question())> {
+[[nodiscard]] auto answerOf(const std::string& path, Question question, FileSystemAnswers& answers = fileSystem())
+    -> Result<decltype(question())> {
   auto answer = std::make_shared<std::optional<decltype(question())>>();
-  const auto asked = fileSystem().ask(path, [answer, question = std::move(question)] { answer->emplace(question()); });
+  const auto asked = answers.ask(path, [answer, question = std::move(question)] { answer->emplace(question()); });
   if (!asked) return std::unexpected(asked.error());
   return std::move(**answer);
 }

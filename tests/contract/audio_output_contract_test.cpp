@@ -17,10 +17,10 @@ namespace {
 using Output = test::AudioOutputRig;
 using namespace std::chrono_literals;
 
-Output makeFakeCard(ManualClock& clock, bool takes_float) {
+Output makeFakeCard(ManualClock& clock, snd_pcm_format_t format = SND_PCM_FORMAT_FLOAT) {
   static const bool plugged = (test::plugFakeSoundCard(), true);
   EXPECT_TRUE(plugged);
-  test::fakeSoundCard() = {.clock = &clock, .takes_float = takes_float};
+  test::fakeSoundCard() = {.clock = &clock, .format = format};
   return {makeAlsaOutput("fake", clock), [](bool unplugged) { test::fakeSoundCard().unplugged = unplugged; }};
 }
 
@@ -30,8 +30,8 @@ const test::AudioOutputBackend kBackends[] = {
        const auto bench = std::make_shared<MockAudioBench>();
        return Output{makeMockAudio({}, clock, bench), [bench](bool unplugged) { bench->unplugged = unplugged; }};
      }},
-    {"alsa_float", [](ManualClock& clock) { return makeFakeCard(clock, true); }},
-    {"alsa_16_bit", [](ManualClock& clock) { return makeFakeCard(clock, false); }},
+    {"alsa_float", [](ManualClock& clock) { return makeFakeCard(clock); }},
+    {"alsa_16_bit", [](ManualClock& clock) { return makeFakeCard(clock, SND_PCM_FORMAT_S16); }},
     {"sample",
      [](ManualClock& clock) {
        const auto card = std::make_shared<SampleCard>();
@@ -43,16 +43,16 @@ INSTANTIATE_TEST_SUITE_P(Backends, AudioOutputContract, testing::ValuesIn(kBacke
 
 TEST(AlsaOutput, SaysWhatToDoAboutACardThatIsNotThere) {
   ManualClock clock;
-  static_cast<void>(makeFakeCard(clock, true));
+  static_cast<void>(makeFakeCard(clock));
   const auto opened = makeAlsaOutput("no such card", clock)->open({});
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
 }
 
 // True once the server has given back the thread that waited for it.
-bool opensAgain(AudioOutput& audio) {
+bool opensAgain(AudioOutput& audio, const AudioFormat& wished = {}) {
   for (int tries = 0; tries < 1000; ++tries) {
-    if (audio.open({})) return true;
+    if (audio.open(wished)) return true;
     std::this_thread::sleep_for(10ms);
   }
   return false;
@@ -60,7 +60,7 @@ bool opensAgain(AudioOutput& audio) {
 
 TEST(AlsaOutput, AWriteThatDoesNotReturnLosesTheCardUntilTheServerAnswers) {
   ManualClock clock;
-  const auto [audio, unplug] = makeFakeCard(clock, true);
+  const auto [audio, unplug] = makeFakeCard(clock);
   ASSERT_TRUE(audio->open({}));
   test::sound_server_stalls = true;
   const auto written = audio->write(std::vector<float>(960));
@@ -77,7 +77,7 @@ TEST(AlsaOutput, AWriteThatDoesNotReturnLosesTheCardUntilTheServerAnswers) {
 
 TEST(AlsaOutput, ACloseThatDoesNotReturnIsForgottenOnceTheServerAnswers) {
   ManualClock clock;
-  const auto [audio, unplug] = makeFakeCard(clock, true);
+  const auto [audio, unplug] = makeFakeCard(clock);
   ASSERT_TRUE(audio->open({}));
   test::sound_server_stalls = true;
   audio->close();
@@ -88,7 +88,7 @@ TEST(AlsaOutput, ACloseThatDoesNotReturnIsForgottenOnceTheServerAnswers) {
 
 TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
   ManualClock clock;
-  const auto [audio, unplug] = makeFakeCard(clock, true);
+  const auto [audio, unplug] = makeFakeCard(clock);
   test::sound_server_stalls = true;
   for (int tries = 0; tries < 2; ++tries) {
     const auto opened = audio->open({});
@@ -99,9 +99,27 @@ TEST(AlsaOutput, GivesUpASoundServerThatDoesNotAnswerAndFindsItAgain) {
   EXPECT_TRUE(opensAgain(*audio));
 }
 
+// Closing waits for the server, as opening does.
+TEST(AlsaOutput, NeverClosesACardOnThePlayersThread) {
+  ManualClock clock;
+  {
+    const auto [audio, unplug] = makeFakeCard(clock, SND_PCM_FORMAT_U8);
+    EXPECT_EQ(audio->open({}).error().code, ErrorCode::Unsupported);
+    EXPECT_NE(test::fakeSoundCard().closed_by, std::thread::id()) << "it was opened";
+    EXPECT_NE(test::fakeSoundCard().closed_by, std::this_thread::get_id());
+  }
+  const auto [audio, unplug] = makeFakeCard(clock);
+  test::sound_server_stalls = true;
+  EXPECT_EQ(audio->open({.rate_hz = 44100}).error().code, ErrorCode::Timeout);
+  test::sound_server_stalls = false;
+  EXPECT_TRUE(opensAgain(*audio, {.rate_hz = 32000}));
+  EXPECT_NE(test::fakeSoundCard().closed_by, std::thread::id()) << "the late card of 44.1 kHz";
+  EXPECT_NE(test::fakeSoundCard().closed_by, std::this_thread::get_id());
+}
+
 TEST(AlsaOutput, WritesSixteenBitsWithoutWrappingRound) {
   ManualClock clock;
-  const auto [audio, unplug] = makeFakeCard(clock, false);
+  const auto [audio, unplug] = makeFakeCard(clock, SND_PCM_FORMAT_S16);
   ASSERT_TRUE(audio->open({}));
   const std::vector<float> loud{0.5F, -0.5F, 1.5F, -1.5F};
   ASSERT_TRUE(audio->write(loud));
@@ -111,7 +129,7 @@ TEST(AlsaOutput, WritesSixteenBitsWithoutWrappingRound) {
 // ALSA's own null device takes everything at once.
 TEST(AlsaOutput, OpensTheLibrarysOwnDevices) {
   ManualClock clock;
-  static_cast<void>(makeFakeCard(clock, true));
+  static_cast<void>(makeFakeCard(clock));
   const auto audio = makeAlsaOutput("null", clock);
   const auto opened = audio->open({});
   ASSERT_TRUE(opened) << opened.error().message;

@@ -67,6 +67,7 @@ snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* a
 
 int close(snd_pcm_ioplug_t* io) {
   waitForServer();
+  fakeSoundCard().closed_by = std::this_thread::get_id();
   delete static_cast<Stream*>(io->private_data);
   return 0;
 }
@@ -113,7 +114,7 @@ int _snd_pcm_relievo_fake_open(snd_pcm_t** pcm, const char* name, snd_config_t* 
     delete stream;
     return code;
   }
-  const unsigned format = fakeSoundCard().takes_float ? SND_PCM_FORMAT_FLOAT : SND_PCM_FORMAT_S16;
+  const unsigned format = fakeSoundCard().format;
   const unsigned access = SND_PCM_ACCESS_RW_INTERLEAVED;
   snd_pcm_ioplug_set_param_list(&stream->io, SND_PCM_IOPLUG_HW_FORMAT, 1, &format);
   snd_pcm_ioplug_set_param_list(&stream->io, SND_PCM_IOPLUG_HW_ACCESS, 1, &access);

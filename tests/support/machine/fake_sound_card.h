@@ -2,9 +2,11 @@
 // A simulated sound card: an ALSA plug-in that plays in time with a test's clock.
 #pragma once
 
+#include <alsa/asoundlib.h>
+
 #include <atomic>
 #include <cstdint>
-#include <string>
+#include <thread>
 
 #include "platform/clock.h"
 
@@ -14,9 +16,10 @@ namespace relievo::test {
 struct FakeSoundCard {
   const Clock* clock = nullptr;
   bool unplugged = false;
-  bool takes_float = true;
-  std::int64_t played = 0;   // frames, since the last start
-  std::int16_t loudest = 0;  // of 16 bit samples
+  snd_pcm_format_t format = SND_PCM_FORMAT_FLOAT;  // the only one that it takes
+  std::int64_t played = 0;                         // frames, since the last start
+  std::int16_t loudest = 0;                        // of 16 bit samples
+  std::thread::id closed_by;
 };
 [[nodiscard]] FakeSoundCard& fakeSoundCard() noexcept;
 
