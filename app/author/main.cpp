@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -22,6 +23,7 @@
 #include "hal/media/video_decoder.h"
 #include "platform/clock.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/text/number_in.h"
 #include "platform/text/plain_text.h"
 
 namespace relievo {
@@ -93,12 +95,12 @@ void addQualityOptions(CLI::App& app, Arguments& a) {
 }
 
 DepthSize depthSize(const std::string& word) {
-  std::array<double, 2> size{};
-  if (!parseSizes(word, size) || word.find_first_of(".eE") != std::string::npos || std::min(size[0], size[1]) < 2 ||
-      size[0] * size[1] > VideoDecoder::kMostSamples) {
+  std::array<int, 2> size{};
+  if (!readNumbers(word, 'x', std::span(size)) || std::min(size[0], size[1]) < 2 ||
+      size[0] > VideoDecoder::kMostSamples / size[1]) {
     throw WordFailure({"--depth-size " + word, {ErrorCode::InvalidArgument, 0, "give WIDTHxHEIGHT, up to 4096x4096"}});
   }
-  return {static_cast<int>(size[0]), static_cast<int>(size[1])};
+  return {size[0], size[1]};
 }
 
 void addDepthFromOptions(CLI::App& app, Arguments& a) {
