@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "drivers/pictures/clock_unit.h"
 #include "drivers/pictures/names.h"
 #include "hal/media/media_names.h"
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "drivers/pictures/clock_unit.h"
 #include "hal/media/media_names.h"
 
 namespace relievo::pictures {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr std::size_t kLeastUnixDigits = 9, kUnixMsDigits = 13, kUnixUsDigits = 16, kUnixNsDigits = 19,
                       kDateDigits = 14;
-constexpr std::int64_t kMostSeconds = 9'000'000'000;
 
 // A run of digits, or of anything else.
 struct Run {
@@ -151,27 +151,6 @@ std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string
   return readAll(names, [&](std::string_view stem) { return read(runsOf(stem)[*place].text); });
 }
 
-// By their size. At least one number, in order.
-std::vector<std::int64_t> stepsOf(const std::vector<std::int64_t>& values) {
-  std::vector<std::int64_t> steps(values.size());
-  std::adjacent_difference(values.begin(), values.end(), steps.begin());
-  steps.erase(steps.begin());
-  std::ranges::sort(steps);
-  return steps;
-}
-
-// Whether numbers that are too great to count pictures are the ids of a web site: they lie far apart, and their steps
-// are of any size or seconds long. Times since a device was switched on may be irregular, but lie closer.
-bool areIds(std::vector<std::int64_t> values) {
-  std::ranges::sort(values);
-  if (values.front() <= kMostSeconds || values.back() - values.front() < values.front() / 4) return false;
-  const std::vector<std::int64_t> steps = stepsOf(values);
-  constexpr std::int64_t kFarNs = 3'000'000'000;
-  const std::int64_t usual = steps.empty() ? 0 : steps[(steps.size() - 1) / 2];
-  const auto odd = std::ranges::count_if(steps, [&](auto step) { return step < usual / 2 || step / 2 > usual; });
-  return usual >= kFarNs || 4 * odd > std::ssize(steps);
-}
-
 std::optional<std::vector<std::int64_t>> clockIn(const std::vector<std::string>& names) {
   auto values = numbersIn(names, integerIn);
   const std::int64_t ns = values && !areIds(*values) ? clockUnit(*values) : 0;
@@ -236,29 +215,6 @@ std::optional<std::int64_t> integerIn(std::string_view text) noexcept {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
-std::int64_t clockUnit(std::vector<std::int64_t> values) {
-  constexpr std::size_t kFewest = 3;
-  constexpr std::int64_t kUnixMs = 1'000'000'000'000, kUnixUs = 1000 * kUnixMs, kUnixNs = 1000 * kUnixUs;  // 2001
-  constexpr std::int64_t kLeastStepNs = 1'000'000, kLeastStepUs = 10'000, kLeastUsualNs = 4'000'000, kJitter = 2;
-  std::ranges::sort(values);
-  values.erase(std::ranges::unique(values).begin(), values.end());
-  if (values.empty() || values.front() < 0) return 0;
-  std::int64_t ns = 0;
-  if (values.front() >= kUnixMs) {
-    ns = values.front() >= kUnixNs ? 1 : values.front() >= kUnixUs ? 1000 : 1'000'000;
-  } else if (values.size() >= kFewest || (values.size() > 1 && values.front() > kMostSeconds)) {
-    const std::vector<std::int64_t> steps = stepsOf(values);
-    const std::int64_t usual = steps[(steps.size() - 1) / 2];
-    const bool regular = usual / kJitter <= steps.front();  // the numbers of photos are not
-    const bool is_30_hz = (usual == 33 || usual == 34) &&
-                          std::ranges::any_of(steps, [&](std::int64_t step) { return step % usual != 0; });
-    if (values.front() > kMostSeconds) ns = usual >= kLeastUsualNs ? 1 : 1000;
-    else if (is_30_hz) ns = 1'000'000;
-    else if (regular) ns = steps.front() >= kLeastStepNs ? 1 : steps.front() >= kLeastStepUs ? 1000 : 0;
-  }
-  return ns > 0 && values.back() <= kMostSeconds * (1'000'000'000 / ns) ? ns : 0;
 }
 
 std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {

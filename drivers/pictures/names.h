@@ -16,11 +16,6 @@ namespace relievo::pictures {
 // "40" -> 40. nullopt for anything else, and beyond 64 bits.
 [[nodiscard]] std::optional<std::int64_t> integerIn(std::string_view text) noexcept;
 
-// The ns of a unit if the numbers of one series are times: ms, us or ns since 1970 after 2001; numbers above 9e9, as no
-// numbers have that count pictures (ns if they are usually 4 million and more apart, else us); or at least three
-// numbers in regular steps of a million (ns) or ten thousand (us), or of 33 and 34 by turns (ms). Else 0.
-[[nodiscard]] std::int64_t clockUnit(std::vector<std::int64_t> values);
-
 enum class NameKind : std::uint8_t {
   Seconds,  // times, in ns
   Numbers,  // numbers that count the pictures
@@ -35,7 +30,7 @@ struct NameValues {
 //   1305031102.175304.png            seconds: the whole name, or nine digits and more with a fraction anywhere in it
 //   1403636579763555584.png          19 digits are ns, 16 us, 13 ms since 1970
 //   40000000.png, 80000000.png, ..   ns from the start if a million and more apart, us if ten thousand
-//   100000.png, 100034.png, ..       ms, as clockUnit says
+//   100000.png, 100034.png, ..       ms, as clockUnit (clock_unit.h) says
 //   0000012-000000400431.png         a number and 12 digits of us (Redwood)
 // Numbers above 9e9 whose steps are of any size, such as the ids of a web site's photos, are neither.
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.
