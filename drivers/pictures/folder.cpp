@@ -170,10 +170,17 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
   return !found.color.names.empty() || !found.depth.names.empty();
 }
 
-// One picture of two cameras: of its depth if that is known, else of both views.
+// One picture of two cameras: of its depth if that is known, else of both views. Or the views of many.
 bool sortByView(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
   const auto stereo = stereoAmong(names, Named::Pictures);
-  if (!stereo) return false;
+  if (!stereo) {
+    auto views = viewsAmong(names);
+    if (!views) return false;
+    found.views = true;
+    found.color = {folder, std::move(views->left)};
+    found.depth = {folder, std::move(views->right)};
+    return true;
+  }
   found.views = stereo->depth.empty();
   found.color = {folder, {stereo->left}};
   found.depth = {folder, {found.views ? stereo->right : stereo->depth}};

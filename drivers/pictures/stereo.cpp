@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <set>
 #include <string_view>
 
 #include "drivers/pictures/endings.h"
@@ -60,7 +61,37 @@ std::string findDepth(const std::vector<std::string>& names, const Layout& layou
   return "";
 }
 
+// Where the name has a word for the left or the right, between anything but letters.
+struct Side {
+  bool right = false;
+  std::size_t at = 0, size = 0;
+};
+std::optional<Side> sideOf(std::string_view stem) {
+  const auto isLetter = [](char c) { return c >= 'a' && c <= 'z'; };
+  for (std::size_t at = 0, end = 0; at < stem.size(); at = end + 1) {
+    end = at;
+    while (end < stem.size() && isLetter(stem[end])) ++end;
+    const std::string_view word = stem.substr(at, end - at);
+    const bool right = word == "r" || word == "right";
+    if (right || word == "l" || word == "left") return Side{right, at, word.size()};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names) {
+  ViewSeries views;
+  std::multiset<std::string> left, right;  // the rest of each name
+  for (const std::string& name : names) {
+    std::string rest = stemOf(name);
+    const auto side = sideOf(rest);
+    if (!side) return std::nullopt;
+    (side->right ? right : left).insert(rest.erase(side->at, side->size));
+    (side->right ? views.right : views.left).push_back(name);
+  }
+  return left == right ? std::optional(std::move(views)) : std::nullopt;
+}
 
 std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named) {
   std::optional<StereoNames> without_depth;

@@ -27,4 +27,11 @@ enum class Named : bool { Pictures, Folders };
 // numbers is taken: a PFM rather than a PNG. nullopt if these are no two views.
 [[nodiscard]] std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named);
 
+struct ViewSeries {
+  std::vector<std::string> left, right;
+};
+// The pictures of two views in one folder: "l_1.png" or "im_left_1.png" for each "r_1.png" or "im_right_1.png". nullopt
+// if a name says neither, or has no partner.
+[[nodiscard]] std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names);
+
 }  // namespace relievo::pictures

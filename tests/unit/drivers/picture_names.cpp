@@ -140,6 +140,20 @@ TEST(PictureNames, GreatNumbersCountNoPictures) {
   EXPECT_EQ(great.values, (std::vector<std::int64_t>{1, 0}));
 }
 
+TEST(StereoNames, ASeriesOfLeftAndRightIsTwoViews) {
+  for (const std::vector<std::string>& names : {std::vector<std::string>{"l_1.png", "r_1.png", "l_2.png", "r_2.png"},
+                                                {"1_L.png", "1_R.png", "2_L.png", "2_R.png"},
+                                                {"im_left1.png", "im_right1.png", "im_left2.png", "im_right2.png"}}) {
+    const auto views = pictures::viewsAmong(names);
+    ASSERT_TRUE(views.has_value()) << names[0];
+    EXPECT_THAT(views->left, ElementsAre(names[0], names[2]));
+    EXPECT_THAT(views->right, ElementsAre(names[1], names[3]));
+  }
+  EXPECT_FALSE(pictures::viewsAmong({"l_1.png", "r_2.png"})) << "no pair";
+  EXPECT_FALSE(pictures::viewsAmong({"l_1.png", "r_1.png", "cover.png"}));
+  EXPECT_FALSE(pictures::viewsAmong({"color_1.png", "rail_1.png"}));
+}
+
 TEST(StereoNames, NumbersOfASeriesAreNoCameras) {
   const std::vector<std::string> series{"image_00.png", "image_01.png", "image_02.png", "image_03.png"};
   EXPECT_FALSE(pictures::stereoAmong(series, pictures::Named::Pictures).has_value());

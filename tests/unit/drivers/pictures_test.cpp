@@ -56,6 +56,15 @@ TEST_F(Pictures, ANumbersTimeIsExactHoweverFarItIs) {
   EXPECT_EQ((*source->read())->pts, MediaTime(3'333'333'333'333ns)) << "100,000 / 30 s, not 100,000 rounded periods";
 }
 
+TEST_F(Pictures, LeftAndRightInOneFolderAreTwoViews) {
+  for (const char* name : {"l_1.png", "r_1.png", "l_2.png", "r_2.png"}) file("v/" + std::string(name));
+  const Film film = read(folder_ / "v", 10);
+  EXPECT_THAT(film.color, ElementsAre("0 v/l_1.png", "100 v/l_2.png"));
+  EXPECT_THAT(film.depth, ElementsAre("0 v/r_1.png", "100 v/r_2.png"));
+  ASSERT_EQ(film.streams.size(), 2u);
+  EXPECT_EQ(film.streams[1].tags.at(kViewTag), "right");
+}
+
 TEST_F(Pictures, NaturalOrderWhereNamesAreNoNumbers) {
   file("a-2.png"), file("a-10.png"), file("cover.png"), file("b.png");
   EXPECT_THAT(read(folder_ / "", 10).color, ElementsAre("0 a-2.png", "100 a-10.png", "200 b.png", "300 cover.png"));
