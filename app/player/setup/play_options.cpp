@@ -228,6 +228,7 @@ void addDepthSource(CLI::App& command, SourceOptions& source) {
       .add_option(
           "--depth", source.depth_url,
           "A second file or address that holds the depth [one beside the film, as film-depth.mkv, if there is one]")
+      ->transform(sourceNamed)
       ->type_name("SOURCE2");
   addDepthOptions(command, source);
   addMaterialOption(command, source);

@@ -27,6 +27,16 @@ TEST(Options, AFirstWordThatIsNoCommandIsAFilm) {
   EXPECT_EQ(three.options->play.player.more, (std::vector<std::string>{"b.m3u", "films/"}));
 }
 
+TEST(Options, DepthIsNamedAsTheFilmIs) {
+  const char* const address = "file:///films/two%20words.mkv";
+  const Parsed play = parse({address, "--depth", address}), probe = parse({"probe", address, "--depth", address});
+  ASSERT_TRUE(play.options && probe.options) << play.err << probe.err;
+  for (const SourceOptions& source : {play.options->play.player.source, probe.options->probe.source}) {
+    EXPECT_EQ(source.url, "/films/two words.mkv");
+    EXPECT_EQ(source.depth_url, "/films/two words.mkv");
+  }
+}
+
 TEST(Options, HelpAndVersionAreAnsweredEverywhere) {
   for (const std::vector<const char*>& words : {std::vector<const char*>{"help"}, {"--help"}, {"-h"}}) {
     EXPECT_THAT(parse(words).out, HasSubstr("relievo film.mkv")) << words[0];
