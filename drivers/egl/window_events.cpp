@@ -116,7 +116,8 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   }
   if (down) hearOtherButton(event.button);
   moveMouse(event.x, event.y);
-  if (mouse_.left && event.button == SDL_BUTTON_LEFT && event.clicks == 2) setFullScreen(FullScreen::Toggle);
+  const bool second = event.clicks % 2 == 0;  // the fourth click in a row is the second of another pair
+  if (mouse_.left && event.button == SDL_BUTTON_LEFT && second) setFullScreen(FullScreen::Toggle);
 }
 
 // As in other players: the right button pauses, those at the side change the film.
