@@ -120,13 +120,13 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   if (mouse_.left && event.button == SDL_BUTTON_LEFT && second) setFullScreen(FullScreen::Toggle);
 }
 
-// As in other players: the right button pauses, those at the side change the film.
+// As in other players: the right button pauses, those at the side change the film. In a list there is nothing to pause.
 void WindowDisplay::hearOtherButton(std::uint8_t button) {
   const std::uint16_t code = button == SDL_BUTTON_RIGHT ? KEY_PLAYPAUSE
                              : button == SDL_BUTTON_X1  ? KEY_PREVIOUS
                              : button == SDL_BUTTON_X2  ? KEY_NEXT
                                                         : KEY_RESERVED;
-  if (code == KEY_RESERVED) return;
+  if (code == KEY_RESERVED || (button == SDL_BUTTON_RIGHT && tellMouse(press_taken_))) return;
   for (const auto action : {KeyEvent::Action::Press, KeyEvent::Action::Release}) {
     static_cast<void>(input_->keys.tryPush({.code = code, .action = action, .time = clock_.now()}));
   }

@@ -210,6 +210,18 @@ TEST_F(WindowDisplay, ADoubleClickAsksForTheWholeScreenAndAFastSecondOneGivesItB
   }
 }
 
+// As over the list of films, where the key for a pause would play one.
+TEST_F(WindowDisplay, TheRightButtonIsNoKeyWhereThePlayerTakesTheMouse) {
+  display_->hearMouse([](const SurfaceMouse&) { return true; });
+  screen_->focus(window_);
+  screen_->moveMouse(place_.x + 50, place_.y + 50);
+  for (const unsigned button : {3U, 8U}) {
+    screen_->button(button, true);
+    screen_->button(button, false);
+  }
+  EXPECT_EQ(nextKey().code, KEY_PREVIOUS) << "the button at the side";
+}
+
 TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {
   EXPECT_TRUE(display_->takeDropped().empty());
   for (const char* path : {"/films/a b.mkv", "/films/c.mkv"}) {
