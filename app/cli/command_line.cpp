@@ -56,9 +56,11 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
   return names;
 }
 
-// CLI11 reports that an argument "was not expected"; this also names the option that was probably meant.
+// CLI11 reports that an argument "was not expected"; this also names the option that was probably meant. Other players
+// take one dash for two, as in -fs.
 void tellUnexpected(const CLI::App& program, const std::string& word) {
-  const std::string option = word.substr(0, word.find('='));
+  const bool one_dash = word.starts_with('-') && !word.starts_with("--");
+  const std::string option = (one_dash ? "-" : "") + word.substr(0, word.find('='));
   log(LogLevel::Error, word.c_str(), "%s%s; see %s --help",
       word.starts_with('-') ? "no such option" : "is one argument too many",
       meant(option, optionsOf(*innermost(&program))).c_str(), commandOf(program).c_str());

@@ -78,6 +78,8 @@ TEST(Options, TakeAnyCase) {
 TEST(Options, SayWhatWasMeant) {
   expectRefused({"film.mkv", "--sterio", "sbs"}, "--sterio: no such option; did you mean --stereo?");
   expectRefused({"film.mkv", "--wide-screen"}, "--wide-screen: no such option; see relievo play --help");
+  expectRefused({"film.mkv", "-fs"}, "-fs: no such option; did you mean --fs?");
+  expectRefused({"film.mkv", "-lop"}, "-lop: no such option; did you mean --loop?");
   expectRefused({"film.mkv", "--display", "windo"}, "did you mean window?");
   expectRefused({"film.mkv", "--packing", "trakcs"}, "did you mean tracks?");
   expectRefused({"probe", "film.mkv", "--jsn"}, "--jsn: no such option; did you mean --json?");
