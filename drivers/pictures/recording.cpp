@@ -15,7 +15,7 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr double kUsualRate = 25, kSensorRate = 30, kPhotoRate = 0.2;
+constexpr double kUsualRate = 30, kPhotoRate = 0.2;
 constexpr std::int64_t kNearest = 20'000'000;  // ns between colour and depth
 
 struct Valued {
@@ -238,7 +238,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
       counted ? rateOf(firstOf(found.color, timing.color), firstOf(found.depth, timing.depth)) : std::nullopt;
   const bool unrelated = timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
   const bool photos = both && !found.views && (unrelated || known == 0.0);
-  const double usual = known.value_or(0) > 0 ? *known : both ? kSensorRate : kUsualRate;
+  const double usual = known.value_or(0) > 0 ? *known : kUsualRate;
   const double rate = frames_per_s.value_or(photos ? kPhotoRate : usual);
   const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
   const double period_ns = counted ? 1e9 / rate : 1;

@@ -121,7 +121,7 @@ TEST(PictureLists, OrderCommentsAndWhatIsNone) {
   }
 }
 
-// At 25 pictures a second the greater number would be 8.9e16 s after the other: 64 bits of ns hold 9.2e9 s.
+// At 30 pictures a second the greater number would be 7.4e16 s after the other: 64 bits of ns hold 9.2e9 s.
 // Its HDF5 files hold distances along rays, as its README says.
 TEST(OtherFiles, HypersimsDistancesBecomeDepth) {
   EXPECT_THAT(pictures::wayToConvert("frame.0000.depth_meters.hdf5"), testing::HasSubstr("/ numpy.sqrt(1 + x * x"));

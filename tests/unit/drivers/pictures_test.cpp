@@ -116,6 +116,15 @@ TEST_F(Pictures, NumbersPairColourAndDepthInOneFolderAndInTwo) {
   EXPECT_THAT(scan.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
 }
 
+TEST_F(Pictures, OneRateIsAssumedForFoldersAndPatterns) {
+  file("n/1.png"), file("n/2.png");
+  for (const char* url : {"n", "n/%d.png", "n/*.png"}) {
+    const Film film = read(folder_ / url);
+    EXPECT_EQ(film.color.back(), "33.3333 n/2.png") << url;
+    EXPECT_THAT(film.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
+  }
+}
+
 // Redwood's times are no seconds, and its codes are mm.
 TEST_F(Pictures, SecondsAndListsAloneSpeakForTumsUnit) {
   const auto saysUnit = [&](const std::string& name, const std::string& time) {
@@ -235,11 +244,11 @@ TEST_F(Pictures, OneThatHasGoneIsPassedOverNamedAndCounted) {
   std::filesystem::remove(folder_ / "2.png");
   EXPECT_EQ(line(**source->read()), "0 1.png");
   testing::internal::CaptureStderr();
-  EXPECT_EQ(line(**source->read()), "80 3.png");
+  EXPECT_EQ(line(**source->read()), "66.6667 3.png");
   EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("2.png: cannot be opened"));
   EXPECT_EQ(source->missedPictures(), 1u);
   EXPECT_FALSE(*source->read());
-  EXPECT_EQ(source->missing(), 40ms);
+  EXPECT_EQ(source->missing(), 33'333'333ns);
 }
 
 // The file is sparse: it takes no space on the disk.
@@ -258,7 +267,7 @@ TEST_F(Pictures, AFileThatIsTooLargeIsNotLookedInto) {
   }
   file("2.png");
   std::filesystem::resize_file(folder_ / "1.png", 3'000'000'000);
-  EXPECT_THAT(read(folder_ / "%d.png").color, ElementsAre("40 2.png"));
+  EXPECT_THAT(read(folder_ / "%d.png").color, ElementsAre("33.3333 2.png"));
 }
 
 TEST_F(Pictures, ALargeFolderIsListedNotRead) {
@@ -270,8 +279,8 @@ TEST_F(Pictures, ALargeFolderIsListedNotRead) {
   });
   ASSERT_TRUE(source->open(folder_ / ""));
   EXPECT_EQ(described, 1);
-  ASSERT_TRUE(source->seek(MediaTime(320s)));
-  EXPECT_EQ(line(**source->read()), "320000 8000");
+  ASSERT_TRUE(source->seek(MediaTime(300s)));
+  EXPECT_EQ(line(**source->read()), "300000 9000");
 }
 
 TEST_F(Pictures, SaysWhatAFolderLacks) {

@@ -135,7 +135,7 @@ TEST_F(PictureFolder, APosesTableBesideTheDepthHasItsTimes) {
   write("5363.500001, 000002, 0, 0, 0, 0, 0, 0, 1\n");
   EXPECT_EQ(times(), "0 16700 100001 ");
   write("5363.500001, 000007, 0, 0, 0, 0, 0, 0, 1\n");
-  EXPECT_EQ(times(), "0 40000 80000 ") << "a picture without a line";
+  EXPECT_EQ(times(), "0 33333 66666 ") << "a picture without a line";
 }
 
 TEST_F(PictureFolder, AGapInTheNumbersIsTimeAndSeeksFindEveryPicture) {
@@ -309,7 +309,7 @@ TEST_F(PictureFolder, GrayOf16BitsBesideAPhotoOfItsNameIsItsDepth) {
   save("p/0001.png", "png", "gray16be", 1001), save("p/0002.png", "png", "gray16be", 1002);
   save("m/0001.png", "png", "gray", 255), save("m/0002.png", "png", "gray", 255);
   EXPECT_EQ(story({.url = folder_ / "p"}), "0 128:1001, 33.3333 128:1002");
-  EXPECT_EQ(story({.url = folder_ / "m"}), "0 128:-1, 40 128:-1");
+  EXPECT_EQ(story({.url = folder_ / "m"}), "0 128:-1, 33.3333 128:-1");
 }
 
 TEST_F(PictureFolder, ADamagedFirstPictureHidesNoOther) {
