@@ -39,7 +39,11 @@ std::string folderOfPictures() {
   return path;
 }
 const test::FilmBackend kPictures{"pictures",
-                                  [] { return makePicturesSource(describePicture); },
+                                  [] {
+                                    auto source = makePicturesSource(describePicture);
+                                    source->setPictureRate(25);
+                                    return source;
+                                  },
                                   makeFfmpegDecoder,
                                   folderOfPictures,
                                   "/nonexistent/%d.png",
