@@ -86,7 +86,8 @@ std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     std::string rest = stemOf(name);
     const auto side = sideOf(rest);
-    if (!side) return std::nullopt;
+    const Role role = roleOf(name);
+    if (!side || role == Role::Depth || role == Role::Other) return std::nullopt;
     (side->right ? right : left).insert(rest.erase(side->at, side->size));
     (side->right ? views.right : views.left).push_back(name);
   }

@@ -31,7 +31,7 @@ struct ViewSeries {
   std::vector<std::string> left, right;
 };
 // The pictures of two views in one folder: "l_1.png" or "im_left_1.png" for each "r_1.png" or "im_right_1.png". nullopt
-// if a name says neither, or has no partner.
+// if a name says neither, says depth or a mask, or has no partner.
 [[nodiscard]] std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names);
 
 }  // namespace relievo::pictures
