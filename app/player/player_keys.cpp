@@ -107,8 +107,10 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
     if (is_volume) mouse_.turn(mouse.notches);
     return is_volume;
   }
-  const auto share = screen_.barAt(mouse, parts_.clock.now());
-  if (share && mouse.pressed) mouse_.drag(*share);
+  SurfaceMouse at_bar = mouse;
+  at_bar.pressed = mouse.pressed && (clicks || screen_.dragsBar());  // a press that began elsewhere is not the bar's
+  const auto share = screen_.barAt(at_bar, parts_.clock.now());
+  if (share && at_bar.pressed) mouse_.drag(*share);
   const auto button = screen_.buttonAt(mouse);
   if (button && clicks) mouse_.click(*button);
   return share || button;

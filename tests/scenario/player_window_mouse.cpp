@@ -103,6 +103,24 @@ TEST_F(PlayerWindow, AWordOfItsBarIsClicked) {
   EXPECT_EQ(r["force"]["max_n"].get<double>(), 0) << "the press is the bar's, not the finger's";
 }
 
+TEST_F(PlayerWindow, APressOfAWordThatSlidesOntoTheBarSeeksNothing) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  const int pause = place_.x + 590 * kWidth / 960;
+  screen_->moveMouse(pause, place_.y + static_cast<int>(597.0 / 720 * kHeight));
+  std::this_thread::sleep_for(300ms);
+  screen_->button(1, true);
+  std::this_thread::sleep_for(300ms);
+  screen_->moveMouse(pause, place_.y + static_cast<int>(664.0 / 720 * kHeight));
+  std::this_thread::sleep_for(300ms);
+  screen_->button(1, false);
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_EQ(report()["seeks"], json::array());
+  EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
+}
+
 TEST_F(PlayerWindow, OfAFilmWithoutDepthTheWheelIsTheVolumeEverywhere) {
   makeClip(folder_ / "film.mkv", {{.pix_fmt = "yuv420p", .frames = 60, .sample = [](int component, int, int, int) {
                                      return component == 0 ? 180U : 128U;

@@ -77,6 +77,7 @@ class FilmScreen {
   // The film's position, 0 to 1, under the mouse on the bar; nullopt if there is no bar. A mouse near the bar's place
   // shows the bar. A press on the bar holds it: until the button is released, the mouse may leave it.
   [[nodiscard]] std::optional<double> barAt(const SurfaceMouse& mouse, MonotonicTime now);
+  [[nodiscard]] bool dragsBar() const noexcept { return drags_bar_; }
   // The button of the bar under the mouse, which `barAt` has been told of.
   [[nodiscard]] std::optional<PlayerVerb> buttonAt(const SurfaceMouse& mouse) const;
   // Whether the mouse is over the bar or the words around it, or holds it. A film without a length has a bar as well.
