@@ -24,8 +24,8 @@ constexpr double kBlack = 0.06;
 // A gray picture lies on no curve but touches some; nearly all its samples have less chroma than this.
 constexpr double kGrayChroma = 0.04, kGrayShare = 0.8;
 
-// The matrices that a picture may be by. Programs that draw depth in colours hand RGB to OpenCV or FFmpeg, which
-// convert it by BT.601, or convert it by BT.709 as video of that size has it, and often state neither.
+// The matrices that a picture may be by. OpenCV and FFmpeg convert RGB by BT.601 however large it is, other programs by
+// BT.709; many state neither.
 std::vector<ColorMatrix> matricesOf(const Frame& picture) {
   if (picture.model != ColorModel::Yuv || picture.matrix != ColorMatrix::Unspecified) return {picture.matrix};
   return {ColorMatrix::Bt601, ColorMatrix::Bt709};
