@@ -86,7 +86,7 @@ TEST_F(PlayerOnACamera, ColourAndDepthOfTwoCamerasMeet) {
   EXPECT_EQ(r["film"]["color"]["codec"], "yuyv");
   EXPECT_EQ(r["film"]["depth"]["codec"], "z16");
   EXPECT_GT(r["video"]["frames_shown"].get<int>(), 0);  // most of them, unless the machine is busy
-  EXPECT_LT(r["video"]["pairs_without_depth"].get<int>(), r["video"]["frames_shown"].get<int>() / 2);
+  EXPECT_LE(2 * r["video"]["pairs_without_depth"].get<int>(), r["video"]["frames_shown"].get<int>());
   EXPECT_GT(r["haptic"]["contact_share"].get<double>(), 0);
   EXPECT_LE(r["video"]["pictures_lost"].get<std::uint32_t>(), depth.starved() + color.starved());
 }
