@@ -123,10 +123,8 @@ TEST(PlayerOnAFalcon, WhatTheTaskComputesArrivesAtTheMotors) {
   EXPECT_LE(strays, sent.size() / 100) << "of " << sent.size() << " commands";
   const std::size_t whole = inOrder(
       sent, ticks, [](const Tick& tick, double share) { return share > 0.99 && glm::length(tick.force_n) > 0.3; });
-  // A machine that leaves out ticks again and again never ends the fade.
-  if (ticks.size() > 5000) {
-    EXPECT_GT(whole, 10U) << "of some thousands";
-  }
+  if (ticks.size() <= 5000) GTEST_SKIP() << "a machine that leaves out ticks again and again never ends the fade";
+  EXPECT_GT(whole, 10U) << "of some thousands";
 }
 
 TEST(CalibrateOnAFalcon, IsCalledOffWhileItWaitsForTheUser) {
