@@ -94,19 +94,20 @@ void WindowDisplay::takeSize(int width, int height) noexcept {
     width = std::max(1, static_cast<int>(std::lround(scale * width)));
     height = std::max(1, static_cast<int>(std::lround(scale * height)));
   }
-  if (by_hand_) {
-    before_.w = width, before_.h = height;
-    return;
-  }
+  const bool fills = fillsScreen();  // then SDL tells the screen's place and size
   int x = SDL_WINDOWPOS_CENTERED, y = SDL_WINDOWPOS_CENTERED;
-  if (film_size_ && !hidden_) {
-    SDL_Rect now{};
-    SDL_GetWindowPosition(window_, &now.x, &now.y);
-    SDL_GetWindowSize(window_, &now.w, &now.h);
+  if (film_size_ && (fills || !hidden_)) {
+    SDL_Rect now = before_;
+    if (!fills) {
+      SDL_GetWindowPosition(window_, &now.x, &now.y);
+      SDL_GetWindowSize(window_, &now.w, &now.h);
+    }
     if (now.w == width && now.h == height) return;
     x = aroundMiddle(now.x, now.w, width, room.x, room.w, kRoomAcross);
     y = aroundMiddle(now.y, now.h, height, room.y, room.h, kRoomDown);
   }
+  if (fills) before_ = {x, y, width, height};
+  if (by_hand_) return;
   SDL_SetWindowSize(window_, width, height);
   SDL_SetWindowPosition(window_, x, y);
 }

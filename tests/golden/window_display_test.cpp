@@ -253,7 +253,11 @@ TEST_F(WindowDisplay, TheNextFilmLeavesTheWindowWhereTheViewerHasMovedIt) {
   plays("fifth", 240, 100);
   EXPECT_EQ(screen_->place(window)->width, XScreen::kWidth) << "it fills the screen";
   other->fillScreen(FullScreen::Off);
-  EXPECT_TRUE(until([&] { return other->attend() && screen_->place(window)->width == 240; }));
+  EXPECT_TRUE(lies({100, 119, 240, 100})) << "around the middle that it had before";
+  other->fillScreen(FullScreen::On);  // a window manager would now do it
+  plays("sixth", 200, 60);
+  other->fillScreen(FullScreen::Off);
+  EXPECT_TRUE(lies({120, 139, 200, 60}));
 }
 
 // 192 dpi: everything is drawn twice as large.
