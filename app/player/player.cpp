@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/player/control/player_control.h"
+#include "platform/log.h"
 
 namespace relievo {
 namespace {
@@ -114,7 +115,13 @@ void Player::boot(const std::atomic<bool>& stop) {
   touch_.begin();
   apply(PlayerEvent::Ready);
   if (parts_.control != nullptr) parts_.control->ready();
-  if (config_.source.url.empty()) return openBrowser(journal_.began());
+  if (config_.source.url.empty() || config_.fault) {
+    openBrowser(journal_.began());
+    if (!config_.fault) return;
+    const auto& [thing, error] = *config_.fault;
+    log(LogLevel::Error, thing.c_str(), "%s", error.message);
+    return screen_.text().tell(thing + ": " + error.message, journal_.began());
+  }
   std::vector<PlaylistEntry> films{{.url = config_.source.url, .depth_url = config_.source.depth_url, .title = ""}};
   for (const std::string& url : config_.more) films.push_back({.url = url, .depth_url = "", .title = ""});
   openList(films, journal_.began());

@@ -53,8 +53,9 @@ struct PlayerConfig {
   std::optional<double> volume_percent;
   bool stays = false;                    // without a film, waits for the next one until asked to quit
   std::optional<BrowserConfig> browser;  // without a film, shows the films of these folders
-  bool faults_in_list = false;  // the list of films shows why no film can be played, in place of the end of the run
-  std::string resume_path;      // file in which positions in films are kept; empty: every film begins at its beginning
+  bool faults_in_list = false;   // the list of films shows why no film can be played, in place of the end of the run
+  std::optional<Failure> fault;  // of the settings; the list of films shows it, and no film is opened unasked
+  std::string resume_path;       // file in which positions in films are kept; empty: every film begins at its beginning
   std::optional<Duration> duration;  // of the run, in machine time
   bool own_threads = true;           // false: reader and ticks run inside `step`, for simulated time
 };

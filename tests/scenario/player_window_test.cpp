@@ -80,6 +80,9 @@ TEST_F(PlayerWindow, WithoutAFilmItShowsTheListAndAClickPlaysOne) {
   EXPECT_TRUE(until([&] { return ground() < list; })) << "the page of keys";
   clickAt(590, 464);
   EXPECT_TRUE(until([&] { return ground() == list; }));
+  screen_->moveMouse(place_.x + 320, place_.y + 116);
+  screen_->button(3, true), screen_->button(3, false);
+  std::this_thread::sleep_for(500ms);  // states: it plays nothing
   clickAt(320, 116);
   EXPECT_TRUE(until([&] { return screen_->pixel(place_.x + 320, place_.y + 300)[0] > 100; })) << "the film";
   std::this_thread::sleep_for(300ms);
@@ -120,6 +123,43 @@ TEST_F(PlayerWindow, WhyNoFilmCanBePlayedIsShownInTheListOfFilms) {
     EXPECT_THAT(textOf("said.txt"), testing::HasSubstr(std::string(name) + ": "));
     EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "fault", "idle", "browsing", "opening", "buffering",
                                         "playing", "idle"}));
+  }
+}
+
+// A start from a menu, and one with a film, which is not opened unasked.
+TEST_F(PlayerWindow, WhatIsWrongInTheSettingsIsShownInTheListOfFilms) {
+  std::ofstream(folder_ / "keys.toml") << "[always]\nRIGHT = \"pase\"\n";
+  std::ofstream(folder_ / "unknown.toml") << "[play]\nstereoo = \"sbs\"\n";
+  std::ofstream(folder_ / "broken.toml") << "[play\n";
+  const std::vector<std::vector<std::string>> starts{{"--keys", folder_ / "keys.toml"},
+                                                     {"--keys", folder_ / "keys.toml", folder_ / "film.mkv"},
+                                                     {"--config", folder_ / "unknown.toml"},
+                                                     {"--config", folder_ / "broken.toml", folder_ / "film.mkv"}};
+  for (const auto& start : starts) {
+    std::vector<std::string> words{RELIEVO_BIN_DIR "/relievo",
+                                   "--from-desktop",
+                                   "--films",
+                                   std::filesystem::path(folder_ / "x").parent_path(),
+                                   "--size",
+                                   "320x240",
+                                   "--report",
+                                   folder_ / "r.json"};
+    words.insert(words.end(), start.begin(), start.end());
+    Process player(words, folder_ / "said.txt");
+    window_ = screen_->find("relievo");
+    ASSERT_NE(window_, 0u) << textOf("said.txt");
+    place_ = screen_->place(window_).value_or(XScreen::Place{});
+    screen_->focus(window_);
+    const auto warns = [&] {  // in the colour of warnings, near the foot
+      const int top = place_.height * 3 / 4;
+      const auto pixels = screen_->pixels(place_.x, place_.y + top, place_.width, place_.height - top);
+      return std::ranges::any_of(pixels, [](const auto& pixel) { return pixel[0] > pixel[2] + 60; });
+    };
+    EXPECT_TRUE(until(warns)) << start[1];
+    screen_->tap("q");
+    EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
+    EXPECT_THAT(textOf("said.txt"), testing::HasSubstr(start[1] + ":"));
+    EXPECT_EQ(report()["states"], (json{"boot", "idle", "browsing", "idle"}));
   }
 }
 

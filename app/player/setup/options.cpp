@@ -121,7 +121,8 @@ std::expected<Options, int> parseOptions(int argc, const char* const* argv, cons
   if (probe.parsed() || self_test.parsed()) return options;
 
   const auto lines = readConfig(play, config_path, options.config);
-  if (!lines) return std::unexpected(tell(lines.error()));
+  if (!lines && options.play.from_desktop && !print_config) options.play.player.fault = lines.error();
+  else if (!lines) return std::unexpected(tell(lines.error()));
   if (print_config) {
     std::fputs(configText(play, options.config, *lines).c_str(), stdout);
     return std::unexpected(kExitDone);

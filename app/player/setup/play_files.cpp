@@ -14,8 +14,10 @@ namespace relievo {
 Outcome<void> loadPlayFiles(PlayOptions& options) {
   if (!options.keys_path.empty()) {
     auto keys = KeyTable::load(options.keys_path);
-    if (!keys) return std::unexpected(keys.error());
-    options.player.keys = std::move(*keys);
+    const bool shown = options.from_desktop && options.player.browser;
+    if (!keys && !shown) return std::unexpected(keys.error());
+    if (keys) options.player.keys = std::move(*keys);
+    else if (!options.player.fault) options.player.fault = keys.error();
   }
   options.player.sound_device = options.audio.text();
   if (const std::string state = Resume::defaultPath(); !state.empty()) {

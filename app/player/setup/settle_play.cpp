@@ -133,6 +133,7 @@ Outcome<void> settlePlay(PlayOptions& play, const Machine& machine) {
                               "--control for a program to choose"});
   }
   settleBrowser(play);
+  if (play.player.fault && !play.player.browser) return std::unexpected(*play.player.fault);  // it would not be seen
   if (play.player.source.url.empty() && !play.player.stays && !play.player.browser) {
     return failOn("SOURCE", {ErrorCode::InvalidArgument, 0,
                              "is missing; name a film, as in relievo film.mkv; see relievo --help"});
