@@ -107,6 +107,9 @@ Result<bool> FilmScreen::draw(const FingerMarks& fingers, MonotonicTime now) {
   if (const char* why = picture_.takeRefusal()) {
     journal_.note(std::string("stereo: ") + why, print("shown as %s", name(picture_.stereo().layout)));
   }
+  for (const char32_t letter : {picture_.words().takeMissingLetter(), subtitles().takeMissingLetter()}) {
+    if (letter != 0) noteMissing(letter);
+  }
   if (*shown == Picture::Shown::Lost) noteLost();
   if (*shown == Picture::Shown::Back) journal_.note("display back", "the picture is shown again");
   return *shown == Picture::Shown::OnScreen || *shown == Picture::Shown::Back;
@@ -246,6 +249,12 @@ void FilmScreen::describe(PlayReport& report) const {
   report.draw_ms = drawn.frame_ms;
   report.frames_shown = shown_;
   report.frames_dropped = dropped_;
+}
+
+void FilmScreen::noteMissing(char32_t letter) {
+  journal_.note(print("no font here has the letter U+%04X", static_cast<unsigned>(letter)),
+                "boxes are shown for such letters; install a font that has them (Debian: fonts-noto-core; Chinese, "
+                "Japanese, Korean: fonts-noto-cjk)");
 }
 
 void FilmScreen::noteLost() {

@@ -116,6 +116,7 @@ class FilmScreen {
   void writeScreenshot(MonotonicTime now);
   void noteSaved(MonotonicTime now);
   void changeAspect(const std::string& word);
+  void noteMissing(char32_t letter);
   void noteLost();
 
   Picture picture_;

@@ -61,6 +61,7 @@ class Picture {
   void clear() noexcept;
   // The text over the picture from the next `show` on.
   void setText(ScreenContent content) { text_ = std::move(content); }
+  [[nodiscard]] ScreenWords& words() noexcept { return words_; }
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return subtitles_; }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return subtitles_; }
   // While the picture stands and the film goes on to `place`: true if a subtitle has begun or ended, so that the

@@ -18,6 +18,8 @@ class ScreenWords {
   // Draws the next pictures again, even if they are the same.
   void forget() noexcept { frame_.reset(); }
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
+  // As of AssText.
+  [[nodiscard]] char32_t takeMissingLetter() noexcept { return text_ ? text_->takeMissingLetter() : U'\0'; }
 
  private:
   [[nodiscard]] bool ready();

@@ -41,6 +41,8 @@ class SubtitleWords {
   // The subtitles at this time of the film. True if the pictures differ from the last ones.
   bool draw(const TextFrame& frame, MediaTime time, const SubtitleRoom& room = {});
   [[nodiscard]] const std::vector<TextPicture>& pictures() const noexcept { return pictures_; }
+  // As of AssText.
+  [[nodiscard]] char32_t takeMissingLetter() noexcept { return text_ ? text_->takeMissingLetter() : U'\0'; }
 
  private:
   void addLines(const Subtitle& subtitle);

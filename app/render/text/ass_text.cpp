@@ -9,8 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "platform/log.h"
-
 namespace relievo {
 namespace {
 
@@ -85,16 +83,19 @@ void blend(const ASS_Image& image, TextPicture& picture) noexcept {
   }
 }
 
-// Called for every message of libass, which says only in words that no font has a letter. `told` is a bool.
+struct MissingLetter {
+  char32_t letter = 0;
+  bool heard = false;
+};
+
+// Called for every message of libass, which says only in words that no font has a letter. `told` is a MissingLetter.
 void hearLibass(int, const char* format, va_list arguments, void* told) {
   constexpr unsigned kFirstMark = 0x2000, kLastMark = 0x206f;  // spaces, joiners and the like: nothing is seen of them
   if (std::string_view(format).find("any fallback with glyph") == std::string_view::npos) return;
   const unsigned letter = va_arg(arguments, unsigned);
-  if ((letter >= kFirstMark && letter <= kLastMark) || std::exchange(*static_cast<bool*>(told), true)) return;
-  log(LogLevel::Warning, "render",
-      "no font here has the letter U+%04X; boxes are shown for such letters; install a font that has them (Debian: "
-      "fonts-noto-core; Chinese, Japanese, Korean: fonts-noto-cjk)",
-      letter);
+  auto& missing = *static_cast<MissingLetter*>(told);
+  if ((letter >= kFirstMark && letter <= kLastMark) || missing.heard) return;
+  missing = {.letter = letter, .heard = true};
 }
 
 // Without any font libass draws nothing.
@@ -109,7 +110,7 @@ bool drawsLetters(AssText& text) {
 }  // namespace
 
 struct AssText::Parts {
-  bool told = false;  // that a letter is in no font
+  MissingLetter missing;
   std::unique_ptr<ASS_Library, FreeLibrary> library;
   std::unique_ptr<ASS_Renderer, FreeRenderer> renderer;
   std::unique_ptr<ASS_Track, FreeTrack> track;
@@ -125,7 +126,7 @@ Result<AssText> AssText::create() {
   auto parts = std::make_unique<Parts>();
   parts->library.reset(ass_library_init());
   if (!parts->library) return fail(ErrorCode::Exhausted, "out of memory for text");
-  ass_set_message_cb(parts->library.get(), hearLibass, &parts->told);
+  ass_set_message_cb(parts->library.get(), hearLibass, &parts->missing);
   parts->renderer.reset(ass_renderer_init(parts->library.get()));
   if (!parts->renderer) return fail(ErrorCode::Exhausted, "out of memory for text");
   ass_set_fonts(parts->renderer.get(), nullptr, "sans-serif", ASS_FONTPROVIDER_AUTODETECT, nullptr, 1);
@@ -133,6 +134,10 @@ Result<AssText> AssText::create() {
   AssText text(std::move(parts));
   if (!drawsLetters(text)) return std::unexpected(kNoFont);
   return text;
+}
+
+char32_t AssText::takeMissingLetter() noexcept {
+  return std::exchange(parts_->missing.letter, U'\0');
 }
 
 void AssText::begin(std::string_view head) {

@@ -34,6 +34,9 @@ class AssText {
   // the same as last time: `pictures` is then unchanged, unless `anew` is set.
   bool draw(const TextFrame& frame, Duration time, std::vector<TextPicture>& pictures, bool anew = false);
 
+  // After the first letter that no font has was drawn as a box, once: that letter. 0: none.
+  [[nodiscard]] char32_t takeMissingLetter() noexcept;
+
   // Escapes text, so that braces and backslashes have no meaning.
   [[nodiscard]] static std::string escaped(std::string_view text);
 

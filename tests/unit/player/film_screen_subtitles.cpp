@@ -78,6 +78,20 @@ TEST_F(SubtitlesOfAStandingPicture, WaitForAPictureThatComesSoon) {
   EXPECT_FALSE(hasWordsAt(2.1, 2100 * kMs, clock_.now() + 2120 * kMs));
 }
 
+// The journal's faults are told on the screen.
+TEST_F(SubtitlesOfAStandingPicture, NameALetterThatNoFontHas) {
+  screen_.subtitles().add({.begin = mediaTime(4),
+                           .end = mediaTime(5),
+                           .lines = {"1,0,Default,,0,0,0,,\xf4\x8f\xbf\xb4"},
+                           .styles = std::make_shared<const std::string>("[Script Info]\nPlayResY: 64\n")});
+  EXPECT_TRUE(hasWordsWhenShownAt(4.5)) << "a box";
+  EXPECT_TRUE(hasWordsWhenShownAt(4.6));
+  const auto& faults = journal_.written().faults;
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].what, "no font here has the letter U+10FFF4");
+  EXPECT_EQ(faults[0].count, 1u) << "once";
+}
+
 // 40 ms after the picture that was drawn for the words; its end lies 10 ms behind that.
 TEST_F(SubtitlesOfAStandingPicture, AreDrawnThirtyTimesASecondAtMost) {
   EXPECT_FALSE(hasWordsWhenShownAt(0));
