@@ -76,6 +76,12 @@ class GstreamerDecoder final : public VideoDecoder {
     return {};
   }
 
+  struct Inside {
+    std::uint64_t tag;
+    MediaTime pts;
+    bool leads;  // its picture is shown before the first key frame
+  };
+
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;
     if (!packet.pts) return fail(ErrorCode::Unsupported, "GStreamer cannot decode pictures without timestamps");
@@ -86,7 +92,8 @@ class GstreamerDecoder final : public VideoDecoder {
       return Feed::Accepted;
     }
     if (!std::exchange(begun_, true)) first_ = *packet.pts;
-    inside_.push_back({++last_tag_, *packet.pts});
+    if (first_ && *packet.pts > *first_) first_.reset();
+    inside_.push_back({++last_tag_, *packet.pts, first_ && *packet.pts < *first_});
     pipeline_->push(
         bufferOf(packet, toPipeline(*packet.pts), packet.dts ? toPipeline(*packet.dts) : GST_CLOCK_TIME_NONE));
     return Feed::Accepted;
@@ -119,37 +126,39 @@ class GstreamerDecoder final : public VideoDecoder {
         return std::unexpected(*failed);  // the picture may come from after the failure
       if (!sample) return false;
       const GstBuffer* const buffer = gst_sample_get_buffer(sample.get());
-      const auto pts = answered(*buffer);
-      if (!pts) continue;
+      const auto packet = answered(*buffer);
+      if (!packet) continue;
       given_any_ = true;
       if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) {
-        giveUp(*pts);
+        giveUp(*packet);
         continue;
       }
       auto picture = frameOf(*sample, stream_, held_, isHardwareElement() && *held_ >= kPicturesHeld);
       if (!picture) return std::unexpected(picture.error());
       frame = std::move(*picture);
-      frame.pts = *pts;
+      frame.pts = packet->pts;
       frame.duration = stream_.frame_period > Duration(0) ? stream_.frame_period : kDefaultPeriod;
       return true;
     }
   }
 
-  // The time of the packet that yielded the picture; nullopt if unknown. Packets that should have yielded theirs long
-  // before are counted as damaged.
-  std::optional<MediaTime> answered(const GstBuffer& buffer) {
+  // The packet that yielded the picture; nullopt if unknown. Packets that should have yielded theirs long before are
+  // counted as damaged.
+  std::optional<Inside> answered(const GstBuffer& buffer) {
     const GstClockTime time = GST_BUFFER_PTS(&buffer);
     const auto found = std::find_if(inside_.begin(), inside_.end(), [&](auto& i) { return toPipeline(i.pts) == time; });
     if (found == inside_.end()) return std::nullopt;
-    const auto [tag, pts] = *found;
+    const Inside packet = *found;
     inside_.erase(found);
-    for (; !inside_.empty() && inside_.front().tag + kFarthest < tag; inside_.pop_front()) giveUp(inside_.front().pts);
-    return pts;
+    for (; !inside_.empty() && inside_.front().tag + kFarthest < packet.tag; inside_.pop_front()) {
+      giveUp(inside_.front());
+    }
+    return packet;
   }
   // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
-  // left out without damage.
-  void giveUp(MediaTime pts) noexcept {
-    if (pts >= first_) countDamaged();
+  // left out without damage. Their packets come before those of pictures shown after it.
+  void giveUp(const Inside& packet) noexcept {
+    if (!packet.leads) countDamaged();
   }
 
   // Each wait counts at most two turns, so that a stalled machine does not time the element out.
@@ -172,7 +181,7 @@ class GstreamerDecoder final : public VideoDecoder {
   }
   // The remaining packets will yield no pictures.
   Progress endOfStream() {
-    for (; !inside_.empty(); inside_.pop_front()) giveUp(inside_.front().pts);
+    for (; !inside_.empty(); inside_.pop_front()) giveUp(inside_.front());
     return Progress::EndOfStream;
   }
 
@@ -205,15 +214,11 @@ class GstreamerDecoder final : public VideoDecoder {
   HeldCount held_ = std::make_shared<std::atomic<int>>(0);
   SamplePtr next_;  // a picture that a wait got
 
-  struct Inside {
-    std::uint64_t tag;
-    MediaTime pts;
-  };
   std::deque<Inside> inside_;  // packets that have no picture yet
   std::size_t inside_most_ = kUsuallyInside;
   std::uint64_t last_tag_ = 0;
-  bool begun_ = false;  // a packet was fed
-  MediaTime first_;     // the time of the first one
+  bool begun_ = false;              // a packet was fed
+  std::optional<MediaTime> first_;  // its time, until one with a later time is fed
   bool draining_ = false;
   bool given_any_ = false;
 };

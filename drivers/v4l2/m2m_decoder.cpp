@@ -68,6 +68,12 @@ class M2mDecoder final : public VideoDecoder {
     return outcomeOf(packets_->start());
   }
 
+  struct Unanswered {
+    std::uint64_t tag;
+    MediaTime pts;
+    bool leads;  // its picture is shown before the first key frame
+  };
+
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;
     if (!packet.pts) return fail(ErrorCode::Unsupported, "video hardware cannot decode pictures without timestamps");
@@ -85,9 +91,10 @@ class M2mDecoder final : public VideoDecoder {
       return std::unexpected(queued.error());
     }
     if (!std::exchange(begun_, true)) first_ = *packet.pts;
-    unanswered_.push_back({last_tag_, *packet.pts});
+    if (first_ && *packet.pts > *first_) first_.reset();
+    unanswered_.push_back({last_tag_, *packet.pts, first_ && *packet.pts < *first_});
     if (unanswered_.size() <= kMostUnanswered) return Feed::Accepted;
-    giveUp(unanswered_.front().pts);
+    giveUp(unanswered_.front());
     unanswered_.pop_front();
     return Feed::Accepted;
   }
@@ -158,31 +165,31 @@ class M2mDecoder final : public VideoDecoder {
       progressed();
       stopped_ = stopped_ || taken.last;
       if (taken.damaged) lose(taken.tag);
-      const auto pts = taken.frame.empty() ? std::nullopt : timeOf(taken.tag);
-      if (!pts) continue;
+      const auto packet = taken.frame.empty() ? std::nullopt : answered(taken.tag);
+      if (!packet) continue;
       frame = std::move(taken.frame);
-      frame.pts = *pts;
+      frame.pts = packet->pts;
       frame.duration = stream_.frame_period;
       given_any_ = true;
       return true;
     }
   }
 
-  // The time of the packet with that tag; nullopt if it was fed before a flush.
-  std::optional<MediaTime> timeOf(std::uint64_t tag) {
+  // The packet with that tag; nullopt if it was fed before a flush.
+  std::optional<Unanswered> answered(std::uint64_t tag) {
     const auto found = std::find_if(unanswered_.begin(), unanswered_.end(), [&](auto& u) { return u.tag == tag; });
     if (found == unanswered_.end()) return std::nullopt;
-    const MediaTime pts = found->pts;
+    const Unanswered packet = *found;
     unanswered_.erase(found);
-    return pts;
+    return packet;
   }
   void lose(std::uint64_t tag) {
-    if (const auto pts = timeOf(tag)) giveUp(*pts);
+    if (const auto packet = answered(tag)) giveUp(*packet);
   }
   // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
-  // left out without damage.
-  void giveUp(MediaTime pts) noexcept {
-    if (pts >= first_) countDamaged();
+  // left out without damage. Their packets come before those of pictures shown after it.
+  void giveUp(const Unanswered& packet) noexcept {
+    if (!packet.leads) countDamaged();
   }
 
   // The kernel's document of stateful decoders, section "Drain".
@@ -199,7 +206,7 @@ class M2mDecoder final : public VideoDecoder {
   }
   // The remaining packets will yield no pictures.
   Progress endOfStream() {
-    for (; !unanswered_.empty(); unanswered_.pop_front()) giveUp(unanswered_.front().pts);
+    for (; !unanswered_.empty(); unanswered_.pop_front()) giveUp(unanswered_.front());
     return Progress::EndOfStream;
   }
   // Continues after an end-of-stream mark inside the stream.
@@ -270,16 +277,12 @@ class M2mDecoder final : public VideoDecoder {
   std::shared_ptr<M2mBuffers> packets_;
   PictureQueue pictures_;
 
-  struct Unanswered {
-    std::uint64_t tag;
-    MediaTime pts;
-  };
   std::deque<Unanswered> unanswered_;  // packets that have no picture yet
   std::uint64_t last_tag_ = 0;
-  bool begun_ = false;       // a packet was fed
-  MediaTime first_;          // the time of the first one
-  bool change_due_ = false;  // the pictures' format changes
-  bool stopped_ = false;     // the last picture before a change or of a drain has come
+  bool begun_ = false;              // a packet was fed
+  std::optional<MediaTime> first_;  // its time, until one with a later time is fed
+  bool change_due_ = false;         // the pictures' format changes
+  bool stopped_ = false;            // the last picture before a change or of a drain has come
   bool draining_ = false, drain_told_ = false;
   bool given_any_ = false;
   Duration idle_{0};

@@ -153,6 +153,20 @@ inline void expectASeekIntoAnOpenGroupToDamageNothing(VideoDecoder& decoder, con
   EXPECT_EQ(after.front().pts, *film.packets[key].pts);
   EXPECT_EQ(decoder.damaged(), 0u);
 }
+// As when a broadcast's times wrap round, or its next item begins.
+inline void expectDamageToCountAfterTheTimesJumpBack(VideoDecoder& decoder, Film film) {
+  for (std::size_t i = 24; i < film.packets.size(); ++i) {
+    *film.packets[i].pts -= std::chrono::seconds(100);
+    film.packets[i].dts.reset();
+  }
+  static const std::uint8_t noise[] = {0, 0, 0, 3, 0x41, 0xFF, 0x13};  // a slice, by its first byte
+  film.packets[50].data = noise;
+  film.packets[50].bytes = sizeof noise;
+  std::vector<Shown> shown;
+  ASSERT_TRUE(feedTo(decoder, film, 0, film.packets.size(), shown));
+  EXPECT_LT(shown.size(), film.packets.size());
+  EXPECT_GT(decoder.damaged(), 0u);
+}
 // As in fast forward: each key frame is drained by itself.
 inline void expectKeyFramesDrainedOneByOne(VideoDecoder& decoder, const Film& film) {
   const auto software = bySoftware(film);

@@ -134,7 +134,7 @@ TEST_F(Gstreamer, ColoursAreAsTheStreamSaysThem) {
   });
 }
 
-TEST_F(Gstreamer, TimesMayBeNegative) {
+TEST_F(Gstreamer, TimesMayBeNegativeAndJumpBack) {
   Film film(clip());
   for (Packet& packet : film.packets) {
     packet.pts = *packet.pts - std::chrono::seconds(1);
@@ -143,6 +143,7 @@ TEST_F(Gstreamer, TimesMayBeNegative) {
   const auto shown = play(*open(film, "avdec_h264"), film);
   ASSERT_EQ(shown.size(), std::size_t{kFrames});
   EXPECT_EQ(shown.front().pts, MediaTime(-std::chrono::seconds(1)));
+  expectDamageToCountAfterTheTimesJumpBack(*open(film, "avdec_h264"), film);
 }
 
 TEST_F(Gstreamer, ASeekForgetsWhatWasInsideAndGoesOnExactly) {

@@ -139,6 +139,13 @@ TEST_F(V4l2M2m, ASeekIntoAnOpenGroupDamagesNothing) {
   expectASeekIntoAnOpenGroupToDamageNothing(*decoder, film);
 }
 
+TEST_F(V4l2M2m, DamageCountsAfterTheTimesJumpBack) {
+  UmockdevCodec codec(bed_, 10);
+  const Film film(clip());
+  const auto decoder = open(film);
+  expectDamageToCountAfterTheTimesJumpBack(*decoder, film);
+}
+
 TEST_F(V4l2M2m, DrainsAgainAndAgain) {
   UmockdevCodec codec(bed_, 10);
   const Film film(clip());
