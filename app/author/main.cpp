@@ -32,9 +32,7 @@ namespace {
 struct Arguments {
   SourceOptions source;
   OutputOptions output;
-  std::string scene;
-  std::string paintings;
-  std::string depth_from;
+  std::string scene, paintings, depth_from;
   SwapEyes swap_eyes = SwapEyes::Auto;
   std::optional<DepthSize> depth_size;
   int crf = -1, depth_crf = -1;

@@ -65,6 +65,13 @@ std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std:
   return names;
 }
 
+std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::size_t& left_out) {
+  const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
+  if (!std::ranges::all_of(names, isOther)) left_out += std::erase_if(names, isOther);
+  if (role == Role::Depth) left_out += keepBestDepth(names);
+  return oneKind(std::move(names), role, left_out);
+}
+
 std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
   for (const std::string_view ending : {"pfm", "dpt", "npy", "png"}) {

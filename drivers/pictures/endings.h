@@ -19,6 +19,10 @@ namespace relievo::pictures {
 // Keeps the names with the most frequent ending, or, of depth with several such, the preferred one; counts the others.
 [[nodiscard]] std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out);
 
+// Those of one folder's pictures that are its film: without pictures that their names tell to be something else
+// ("1.pgm", "1_ab.pgm"), and depth without that of another kind or ending.
+[[nodiscard]] std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::size_t& left_out);
+
 // Takes depth out of `names` where colour and its depth differ in the ending alone: "1.jpg" or a "1.png" that is not
 // gray of 16 bits (heads are read) beside "1.pfm", "1.dpt" or a "1.npy" of one plane; "1.jpg" beside a gray "1.png" of
 // 16 bits. Empty if there is none.

@@ -70,15 +70,6 @@ Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
   return listing;
 }
 
-// Leaves out pictures beside the others that their names tell to be something else ("1.pgm", "1_ab.pgm"),
-// and depth of another kind or ending.
-std::vector<std::string> chosen(std::vector<std::string> names, Role role, FoundPictures& found) {
-  const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
-  if (!std::ranges::all_of(names, isOther)) found.left_out += std::erase_if(names, isOther);
-  if (role == Role::Depth) found.left_out += keepBestDepth(names);
-  return oneKind(std::move(names), role, found.left_out);
-}
-
 // Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
 void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
   std::map<Role, std::vector<std::string>> by_role;
@@ -93,7 +84,7 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
   keepLeftView(depth), keepLeftView(color);
   found.left_out += names.size() - depth.size() - color.size();
-  found.depth = {folder, chosen(depth, Role::Depth, found)};
+  found.depth = {folder, chosen(depth, Role::Depth, found.left_out)};
   found.color = {folder, oneKind(color, Role::Color, found.left_out)};
 }
 
@@ -103,7 +94,7 @@ PictureFiles picturesIn(const std::string& folder, Role role, FoundPictures& fou
                         int levels = 4) {
   constexpr std::size_t kMostFolders = 16;
   auto listing = listingOf(folder, may_list).value_or(Listing{});
-  if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found)};
+  if (!listing.pictures.empty()) return {folder, chosen(std::move(listing.pictures), role, found.left_out)};
   std::ranges::sort(listing.folders, naturalLess);
   listing.folders.resize(std::min(listing.folders.size(), levels > 0 ? kMostFolders : 0));
   for (const std::string& name : listing.folders) {
