@@ -9,7 +9,6 @@
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/float_reading.h"
 #include "hal/media/media_names.h"
-#include "hal/media/samples.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -22,26 +21,11 @@ bool namesDepth(const std::string& url) {
   return saysDepth(url) || saysDisparity(url) || saysDepth(url.substr(0, url.rfind('/')));
 }
 
-// True if there is no colour in any sample: not even what lossy coding leaves.
-bool isNeutral(const Frame& yuv) {
-  const std::uint32_t middle = 1U << (yuv.components[1].bits - 1);
-  for (int r = 0; r < yuv.height; ++r) {
-    for (int c = 0; c < yuv.width; ++c) {
-      const int across = c >> yuv.chroma_shift_x, down = r >> yuv.chroma_shift_y;
-      if (codeAt(yuv, yuv.components[1], across, down) != middle) return false;
-      if (codeAt(yuv, yuv.components[2], across, down) != middle) return false;
-    }
-  }
-  return true;
-}
-
-// Floating-point numbers, a sensor's codes, YUV of more than 10 bits without colour (of 10 bits it may be a gray film)
-// and a colour map are depth; so are gray, hues and a ramp of blue in a file
+// Floating-point numbers, a sensor's codes and a colour map are depth; so are gray, hues and a ramp of blue in a file
 // whose name says depth.
 bool isDepthAlone(const Frame& picture, const std::string& url) {
   if (picture.value_per_code != 0) return true;
   if (picture.model == ColorModel::Gray && picture.components[0].bits > 8) return true;  // no photo has as many shades
-  if (picture.model == ColorModel::Yuv && picture.components[0].bits > 10 && isNeutral(picture)) return true;
   const bool may_be_codes =
       picture.model == ColorModel::Gray || hasEqualColors(picture) || packedOrder(picture) != SampleOrder::AsStored;
   if (may_be_codes && sensorKind(picture, CodeCount(picture)) != nullptr) return true;

@@ -175,28 +175,6 @@ TEST(DepthReading, HuesOfUnknownMeaningSayTheWords) {
               IsEmpty());
 }
 
-// No gray film has 12 bits; one of 10 bits may be a gray film.
-TEST(DepthReading, TwelveBitsOfYuvWithoutColourAreDepthAlone) {
-  TemporaryFolder folder;
-  const auto opened = [&](const std::string& format, std::uint32_t last_chroma) {
-    const std::uint32_t middle = format == "yuv420p12le" ? 2048 : 512;
-    ClipTrack film{.pix_fmt = format, .frames = 2};
-    film.sample = [=](int k, int c, int r, int) {
-      if (k == 0) return static_cast<std::uint32_t>(100 + 10 * c + r);
-      return c == 31 && r == 23 ? last_chroma : middle;
-    };
-    makeClip(folder / "a.mkv", {film});
-    PairReader reader(kFfmpeg);
-    EXPECT_TRUE(reader.open({.url = folder / "a.mkv"}));
-    return reader.info();
-  };
-  EXPECT_EQ(opened("yuv420p12le", 2048).packing, Packing::DepthAlone);
-  EXPECT_NE(opened("yuv420p12le", 2047).packing, Packing::DepthAlone);
-  const FilmInfo ten = opened("yuv420p10le", 512);
-  EXPECT_NE(ten.packing, Packing::DepthAlone);
-  EXPECT_THAT(ten.notes, Contains(HasSubstr("if it is depth: --packing depth-alone")));
-}
-
 TEST(DepthReading, WhatIsStretchedOverItsBitsIsLeftAsItIs) {
   const auto settings = [](const Frame& f) { return readCodes(f, CodeCount(f), {}).settings; };
   const auto slope = [](int bits, std::uint32_t times) {
