@@ -95,7 +95,6 @@ struct Timing {
 
   void align(const FoundPictures& found, NameKind depth_kind);
   bool pairByKey(const FoundPictures& found);
-  void countMilliseconds();
   void rankFarNumbers();
   void noteGaps();
 };
@@ -142,22 +141,6 @@ void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   if (pairs < color.size()) {
     notes.push_back(print("%zu of %zu colour pictures have no depth within 20 ms", color.size() - pairs, color.size()));
   }
-}
-
-// Numbers in steps of whole hundreds below ten thousand are ms: of ten pictures a second and fewer.
-void Timing::countMilliseconds() {
-  constexpr std::int64_t kRound = 100, kFar = 10'000, kNs = 1'000'000;
-  constexpr std::size_t kFewest = 3;
-  const Series& leading = color.empty() ? depth : color;
-  if (kind != NameKind::Numbers || leading.size() < kFewest) return;
-  const auto is_odd = [](const Valued& a, const Valued& b) {
-    const std::int64_t step = b.value - a.value;
-    return step % kRound != 0 || step >= kFar;
-  };
-  if (std::ranges::adjacent_find(leading, is_odd) != leading.end()) return;
-  for (Series* const series : {&color, &depth})
-    for (Valued& each : *series) each.value *= kNs;
-  kind = NameKind::Seconds;
 }
 
 // Numbers of photos from a shop or a web site. Depth without its colour is left out.
@@ -219,7 +202,6 @@ Timing timingOf(const FoundPictures& found) {
   timing.color = inOrder(color.values);
   timing.depth = inOrder(depth.values);
   timing.align(found, depth.kind);
-  timing.countMilliseconds();
   if (!found.views) timing.rankFarNumbers();
   return timing;
 }

@@ -135,22 +135,6 @@ TEST_F(Pictures, NumbersThatAreFarApartArePhotos) {
               ElementsAre("0 s/depth/depth0.png", "20000 s/depth/depth200.png", "40000 s/depth/depth400.png"));
 }
 
-// One picture a second with a gap, ten a second; each 50th and each 200th picture, depth of each 200th.
-TEST_F(Pictures, NumbersInRoundStepsAreMilliseconds) {
-  for (const char* number : {"1000", "2000", "3000", "5000"})
-    file("a/rgb/rgb_" + std::string(number) + ".jpg"), file("a/depth/depth_" + std::string(number) + ".png");
-  const Film slow = read(folder_ / "a");
-  EXPECT_EQ(slow.color.back(), "4000 a/rgb/rgb_5000.jpg");
-  EXPECT_EQ(slow.depth.back(), "4000 a/depth/depth_5000.png");
-  EXPECT_TRUE(slow.notes.empty());
-  for (const char* number : {"33", "133", "233"}) file("b/" + std::string(number) + ".png");
-  EXPECT_EQ(read(folder_ / "b").color.back(), "200 b/233.png");
-  for (const char* number : {"0", "50", "100"}) file("c/" + std::string(number) + ".png");
-  EXPECT_EQ(read(folder_ / "c", 10).color.back(), "10000 c/100.png");
-  for (const char* number : {"0", "200"}) file("d/" + std::string(number) + ".png");
-  EXPECT_EQ(read(folder_ / "d", 10).color.back(), "20000 d/200.png") << "two show no steps";
-}
-
 // A recording over midnight; a counter that is no date.
 TEST_F(Pictures, DatesThatDifferByFramesAreNoPhotos) {
   for (const char* name : {"cam_20230101_235959_966", "cam_20230101_235959_999", "cam_20230102_000000_033"})
