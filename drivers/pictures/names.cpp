@@ -139,7 +139,7 @@ std::optional<std::size_t> countingRun(const std::vector<std::string>& names) {
 
 // A single name counts by its last run of digits.
 std::optional<std::vector<std::int64_t>> numbersIn(const std::vector<std::string>& names,
-                                                   std::optional<std::int64_t> (*read)(std::string_view)) {
+                                                   std::optional<std::int64_t> (*read)(std::string_view) noexcept) {
   auto place = countingRun(names);
   if (names.size() == 1) {
     const std::vector<Run> runs = runsOf(stemOf(names.front()));
@@ -200,16 +200,6 @@ bool tellDays(const std::vector<std::string>& names) {
   return 2 * far >= moments.size();
 }
 
-// The times of dates with the time in one number, but of photos.
-std::optional<std::vector<std::int64_t>> datesIn(const std::vector<std::string>& names) {
-  if (names.size() < 2 || tellDays(names)) return std::nullopt;
-  return numbersIn(names, [](std::string_view digits) -> std::optional<std::int64_t> {
-    const auto moment = digits.size() == kDateDigits ? momentIn(digits) : std::nullopt;
-    if (!moment) return std::nullopt;
-    return std::chrono::nanoseconds(moment->time_since_epoch()).count();
-  });
-}
-
 std::vector<std::int64_t> ranksOf(const std::vector<std::string>& names) {
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -244,7 +234,6 @@ NameValues valuesOf(const std::vector<std::string>& names) {
   if (names.empty()) return {};
   if (auto times = readAll(names, timeIn)) return {NameKind::Seconds, std::move(*times)};
   if (auto times = clockIn(names)) return {NameKind::Seconds, std::move(*times)};
-  if (auto times = datesIn(names)) return {NameKind::Seconds, std::move(*times)};
   if (auto numbers = numbersIn(names, countIn)) return {NameKind::Numbers, std::move(*numbers)};
   return {NameKind::Ranks, ranksOf(names)};
 }

@@ -31,7 +31,6 @@ struct NameValues {
 //   1403636579763555584.png          19 digits are ns, 16 us, 13 ms since 1970
 //   40000000.png, 80000000.png, ..   ns from the start if a million and more apart, us if ten thousand
 //   100000.png, 100034.png, ..       ms, as clockUnit (clock_unit.h) says
-//   20230101101010.png               dates, unless they are mostly some seconds apart, as those of photos are
 //   0000012-000000400431.png         a number and 12 digits of us (Redwood)
 // Numbers above 9e9 whose steps are of any size, such as the ids of a web site's photos, are neither.
 // A number is the only run of digits that differs between names that are otherwise alike, and at most 9e9.

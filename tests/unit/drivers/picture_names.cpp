@@ -68,17 +68,6 @@ TEST(PictureNames, NumbersBeyondAnyCountAreTimesAndSoAreJitteringMilliseconds) {
   EXPECT_EQ(valuesOf({"0.png", "33.png", "66.png", "132.png"}).kind, NameKind::Numbers) << "each 33rd";
 }
 
-// 2023-01-01 10:10:59 is 1672567859 s after 1970.
-TEST(PictureNames, DatesOneSecondApartAreSeconds) {
-  expectMoments({"20230101101059.jpg", "20230101101100.jpg", "20230101101103.jpg", "20230101101104.jpg"},
-                {1672567859000000000, 1672567860000000000, 1672567863000000000, 1672567864000000000});
-  const std::vector<std::string> photos{"IMG20230101101059.jpg", "IMG20230101101110.jpg", "IMG20230101101111.jpg",
-                                        "IMG20230101101120.jpg"};
-  EXPECT_EQ(valuesOf({"20239901101059.jpg", "20239901101100.jpg"}).kind, NameKind::Ranks) << "no date";
-  EXPECT_EQ(valuesOf(photos).kind, NameKind::Ranks);
-  EXPECT_TRUE(pictures::areUnrelated(photos));
-}
-
 TEST(PictureLists, WholeNumbersMayBeTimes) {
   const auto timeOf = [](const char* text) {
     const auto list = pictures::parsePictureList(text, 1);
