@@ -227,9 +227,7 @@ void addMaterialOption(CLI::App& app, SourceOptions& source, std::string& maps) 
 }
 
 void addRateOption(CLI::App& app, SourceOptions& source) {
-  app.add_option("--fps", source.frames_per_s,
-                 "Frames per second of pictures that have numbers but no times [25; 30 if colour and depth are in one "
-                 "folder]")
+  app.add_option("--fps", source.frames_per_s, "Frames per second of pictures that have numbers but no times [30]")
       ->type_name("F")
       ->check(between(0.01, 10000.0));
 }

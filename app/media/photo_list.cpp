@@ -42,12 +42,13 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
   const fs::path folder = is_folder ? fs::path(url) : fs::path(url).parent_path();
   const std::string pattern = is_folder ? "*" : fs::path(url).filename().string();
   std::vector<std::string> photos, names;
-  std::set<std::string> films, moving;  // stems
+  std::set<std::string> stems, films, moving;  // of photos, of films, of photos that move
   for (const auto& [name, is] : entriesOf(folder.empty() ? "." : folder)) {
     const bool fits = is == FolderEntry::Kind::File && mediaKindOf(name) != MediaKind::Neither &&
                       ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
     if (fits && names.size() < kMostEntries) names.push_back(name);
     if (fits && isPhoto(name)) photos.push_back(name);
+    if (fits && isPhoto(name)) stems.insert(stemOf(name));
     if (fits && mediaKindOf(name) == MediaKind::Film) films.insert(stemOf(name));
   }
   const auto streamsOf = [&](const std::string& path) {
@@ -70,7 +71,8 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
   for (const std::string& name : photos) {
     if (films.contains(stemOf(name)) && holdsMore(name)) moving.insert(stemOf(name));
   }
-  if (moving.empty() && filmsIn(url)) return std::nullopt;
+  // Films whose pictures are covers.
+  if (moving.empty() && std::ranges::includes(stems, films) && filmsIn(url)) return std::nullopt;
   std::erase_if(names, [&](const std::string& name) {
     return mediaKindOf(name) == MediaKind::Film && moving.contains(stemOf(name));
   });

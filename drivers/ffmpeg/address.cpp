@@ -62,8 +62,12 @@ const char* protocolsOf(Way way) noexcept {
   return "";
 }
 
-// FFmpeg takes a missing port for 0: no port of that number receives anything.
+// FFmpeg takes a missing port for 0: no port of that number receives anything. The query can name the port, too; what
+// follows a "&" is an option that FFmpeg does not see.
 bool hasPort(std::string_view url) noexcept {
+  for (const char* const named : {"localport=", "localrtpport="}) {
+    if (url.find(named) != url.npos) return true;
+  }
   url.remove_prefix(url.find(':') + 1);
   url = url.substr(std::min(url.find_first_not_of('/'), url.size()));
   url = url.substr(0, url.find_first_of("/?#"));
@@ -72,7 +76,7 @@ bool hasPort(std::string_view url) noexcept {
   int port = 0;
   const char* const end = url.data() + url.size();
   const auto [last, failed] = std::from_chars(url.data() + colon + 1, end, port);
-  return failed == std::errc() && last == end && port >= 1 && port <= 65535;
+  return failed == std::errc() && (last == end || *last == '&') && port >= 1 && port <= 65535;
 }
 
 // Devices, sockets and files of /proc and the like: a read may block forever and cannot be interrupted.

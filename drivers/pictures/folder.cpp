@@ -219,14 +219,16 @@ Result<FoundPictures> findAmong(const std::string& folder, const std::vector<std
   return found;
 }
 
-// The same, one folder down, or else as deep as `levels`.
+// The same, one folder down, or else as deep as `levels`; two views only if there is no depth.
 Result<FoundPictures> findBelow(const std::string& folder, Listing listing, std::size_t& may_list, int levels) {
   constexpr std::size_t kMostFolders = 16;
   Result<FoundPictures> found = fail(ErrorCode::NotFound, kNoPictures);
   if (listing.folders.size() > kMostFolders) return found;
   std::ranges::sort(listing.folders, naturalLess);
-  for (int deeper = 0; deeper < levels && !found; ++deeper)
-    found = findAmong(folder, listing.folders, may_list, deeper);
+  for (int deeper = 0; deeper < levels && (!found || found->views); ++deeper) {
+    auto here = findAmong(folder, listing.folders, may_list, deeper);
+    if (!found || (here && !here->views)) found = std::move(here);
+  }
   return found;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "drivers/pictures/endings.h"
+#include "hal/media/media_names.h"
 #include "platform/text/lower_case.h"
 
 namespace relievo::pictures {
@@ -83,15 +84,17 @@ std::optional<Side> sideOf(std::string_view stem) {
 std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names) {
   ViewSeries views;
   std::multiset<std::string> left, right;  // the rest of each name
+  std::set<std::string> endings;           // depth may have another one
   for (const std::string& name : names) {
     std::string rest = stemOf(name);
     const auto side = sideOf(rest);
     const Role role = roleOf(name);
     if (!side || role == Role::Depth || role == Role::Other) return std::nullopt;
+    endings.insert(endingOf(name));
     (side->right ? right : left).insert(rest.erase(side->at, side->size));
     (side->right ? views.right : views.left).push_back(name);
   }
-  return left == right ? std::optional(std::move(views)) : std::nullopt;
+  return left == right && endings.size() == 1 ? std::optional(std::move(views)) : std::nullopt;
 }
 
 std::optional<StereoNames> stereoAmong(const std::vector<std::string>& names, Named named) {

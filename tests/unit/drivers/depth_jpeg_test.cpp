@@ -262,6 +262,8 @@ TEST(DepthJpeg, APortraitAmongCoversHidesNoFilm) {
   write(folder / "portrait.jpg", portrait());
   EXPECT_TRUE(listed({.url = std::filesystem::path(folder / "x").parent_path()}).empty()) << "a list of films";
   EXPECT_EQ(listed({.url = folder / "*"}).size(), 7U);
+  std::ofstream(folder / "VID_1.mp4") << "film";
+  EXPECT_EQ(listed({.url = std::filesystem::path(folder / "x").parent_path()}).size(), 8U) << "not all are covers";
 }
 
 // As FFmpeg describes the tiles of a large photo.

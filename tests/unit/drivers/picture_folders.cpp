@@ -35,6 +35,8 @@ TEST_F(Pictures, ANearerRecordingIsBeforeOneInADeeperFolder) {
   EXPECT_TRUE(read(folder_ / "b").error) << "several";
   std::filesystem::remove_all(folder_ / "b/one");
   EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/two/part1/depth/1.png"));
+  file("b/stereo/left/1.png"), file("b/stereo/right/1.png");
+  EXPECT_THAT(read(folder_ / "b").depth, ElementsAre("0 b/two/part1/depth/1.png")) << "depth is before two views";
 }
 
 // 4096 folders, of which the last one has a picture.

@@ -63,6 +63,8 @@ TEST_F(Pictures, LeftAndRightInOneFolderAreTwoViews) {
   EXPECT_THAT(film.depth, ElementsAre("0 v/r_1.png", "100 v/r_2.png"));
   ASSERT_EQ(film.streams.size(), 2u);
   EXPECT_EQ(film.streams[1].tags.at(kViewTag), "right");
+  file("d/l_1.jpg"), file("d/r_1.jpg"), file("d/l_1.pfm"), file("d/r_1.pfm");
+  EXPECT_THAT(read(folder_ / "d").depth, ElementsAre("0 d/l_1.pfm", "5000 d/r_1.pfm")) << "depth of each, no views";
 }
 
 TEST_F(Pictures, NaturalOrderWhereNamesAreNoNumbers) {

@@ -241,7 +241,7 @@ TEST(FfmpegSource, PacketsNeedAPort) {
     EXPECT_THAT(openErrorOf(url).message, HasSubstr("a port from 1 to 65535")) << url;
   }
   for (const char* url : {"udp://@:1234", "udp:@:1234", "udp://[::1]:65535?pkt_size=1316", "srt://localhost:9000/",
-                          "rtp://127.0.0.1:1?a=b:0"}) {
+                          "rtp://127.0.0.1:1?a=b:0", "udp://127.0.0.1?localport=1234", "udp://@:1234&reuse=1"}) {
     EXPECT_TRUE(ffmpeg::parseAddress(url)) << url;
   }
 }
