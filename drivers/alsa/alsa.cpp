@@ -49,12 +49,14 @@ Error openError(int code) noexcept {
 // A card, as a helper thread uses it: it opens it, and the last one that holds it closes it.
 class Card {
  public:
-  explicit Card(const AudioFormat& asked) : wished(asked), format(asked) {}
+  Card(const AudioFormat& asked, std::shared_ptr<Card> other)
+      : wished(asked), format(asked), before(std::move(other)) {}
   ~Card() { close(); }
   Card(const Card&) = delete;
   Card& operator=(const Card&) = delete;
 
   void open(const std::string& device) {
+    before.reset();
     refused = snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
     if (refused < 0) pcm_ = nullptr;
     else unfit = configure();
@@ -108,6 +110,7 @@ class Card {
 
   const AudioFormat wished;
   AudioFormat format;
+  std::shared_ptr<Card> before;    // is closed first
   std::atomic<bool> done = false;  // what follows stands, and belongs to the player's thread
   int refused = 0, unfit = 0;      // ALSA's errors
   Duration buffer{0};
@@ -186,18 +189,15 @@ class AlsaOutput final : public AudioOutput {
     if (late_ != nullptr && !late_->done) return std::unexpected(kNotYet);
     std::shared_ptr<Card> card = std::exchange(late_, nullptr);
     if (card == nullptr || card->wished.rate_hz != wished.rate_hz || card->wished.channels != wished.channels) {
-      std::shared_ptr<Card> other = std::exchange(card, std::make_shared<Card>(wished));
-      const auto asked = server_.ask(kServer, [card, other = std::move(other), device = device_]() mutable {
-        other.reset();
-        card->open(device);
-      });
+      card = std::make_shared<Card>(wished, std::move(card));
+      const auto asked = server_.ask(kServer, [card, device = device_] { card->open(device); });
       if (!asked && asked.error().code == ErrorCode::Timeout) {
-        late_ = stuck_ ? nullptr : card;  // while an earlier call hangs, this one was not made
+        const bool begun = card.use_count() > 1 || card->done;  // none is while an earlier call hangs
+        late_ = begun ? card : std::move(card->before);
         return std::unexpected(kNotYet);
       }
       if (!asked) return std::unexpected(asked.error());
     }
-    stuck_ = false;
     if (card->refused < 0) return std::unexpected(openError(card->refused));
     if (card->unfit < 0) {
       return fail(ErrorCode::Unsupported,
@@ -241,8 +241,7 @@ class AlsaOutput final : public AudioOutput {
 
   void closeOutput() noexcept override {
     if (card_ == nullptr) return;
-    const auto closed = server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); });
-    stuck_ = !closed && closed.error().code == ErrorCode::Timeout;
+    static_cast<void>(server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); }));
     card_ = nullptr;
   }
 
@@ -252,9 +251,8 @@ class AlsaOutput final : public AudioOutput {
     const auto answer =
         relievo::answerOf(kServer, [card = card_, call = std::move(call)] { return call(*card); }, server_);
     if (answer) return answer;
-    stuck_ = answer.error().code == ErrorCode::Timeout;
     card_ = nullptr;  // the helper thread still holds it
-    return fail(ErrorCode::Lost, stuck_ ? kSilentServer : answer.error().message);
+    return fail(ErrorCode::Lost, answer.error().code == ErrorCode::Timeout ? kSilentServer : answer.error().message);
   }
 
   static Error lost(int code) noexcept {
@@ -269,7 +267,6 @@ class AlsaOutput final : public AudioOutput {
   FileSystemAnswers server_{kServerPatience};
   std::shared_ptr<Card> card_;  // null: closed
   std::shared_ptr<Card> late_;  // a server that answers later is taken at the next try
-  bool stuck_ = false;          // a call other than an opening has not returned
   Duration buffer_{0};
   std::int64_t written_ = 0;  // since `open` or the last flush
 };
