@@ -123,8 +123,7 @@ int rowsLower(const Reduced& a, const Reduced& b) {
   double least = std::numeric_limits<double>::infinity();
   for (int lower = -kLowest; lower <= kLowest; ++lower) {
     double sum = 0;
-    for (std::size_t r = kLowest; r < kRows - kLowest; ++r)
-      sum += std::abs(first[r] - second[static_cast<std::size_t>(static_cast<int>(r) + lower)]);
+    for (int r = kLowest; r < kRows - kLowest; ++r) sum += std::abs(first.begin()[r] - second.begin()[r + lower]);
     if (sum < least) best = lower;
     least = std::min(least, sum);
   }
