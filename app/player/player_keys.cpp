@@ -99,7 +99,7 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   if (screen_.text().showsKeys()) {
     screen_.text().turnPage(-mouse.notches);
     if (clicks) screen_.text().hideKeys();
-    return true;
+    return mouse.pressed || mouse.notches != 0;  // the right button comes as a key, and closes the page
   }
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse, clicks);
   if (mouse.notches != 0) {

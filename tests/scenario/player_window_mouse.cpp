@@ -121,6 +121,23 @@ TEST_F(PlayerWindow, APressOfAWordThatSlidesOntoTheBarSeeksNothing) {
   EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
 }
 
+// Then the space bar pauses; on the page it would only close it.
+TEST_F(PlayerWindow, TheRightButtonClosesThePageOfKeys) {
+  const auto player = play({"--haptic", "none"});
+  EXPECT_TRUE(until([&] { return shows(); }));
+  screen_->moveMouse(place_.x + 160, place_.y + 60);
+  screen_->tap("h");
+  std::this_thread::sleep_for(300ms);
+  screen_->button(3, true);
+  screen_->button(3, false);
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("space");
+  std::this_thread::sleep_for(300ms);
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
+}
+
 TEST_F(PlayerWindow, OfAFilmWithoutDepthTheWheelIsTheVolumeEverywhere) {
   makeClip(folder_ / "film.mkv", {{.pix_fmt = "yuv420p", .frames = 60, .sample = [](int component, int, int, int) {
                                      return component == 0 ? 180U : 128U;
