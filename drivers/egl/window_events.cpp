@@ -107,15 +107,15 @@ void WindowDisplay::hearButton(const SDL_MouseButtonEvent& event) {
   showPointer();
   if (event.button == SDL_BUTTON_MIDDLE) mouse_.middle = down;
   if (event.button == SDL_BUTTON_RIGHT) mouse_.right = down;
+  mouse_x_ = event.x;
+  mouse_y_ = event.y;
   if (event.button == SDL_BUTTON_LEFT) {
-    mouse_x_ = event.x;
-    mouse_y_ = event.y;
     const bool taken = tellMouse(down);
     press_taken_ = down && taken;
     mouse_.left = down && !press_taken_;
   }
   if (down) hearOtherButton(event.button);
-  moveMouse(event.x, event.y);
+  publishMouse();
   const bool second = event.clicks % 2 == 0;  // the fourth click in a row is the second of another pair
   if (mouse_.left && event.button == SDL_BUTTON_LEFT && second) setFullScreen(FullScreen::Toggle);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/egl/egl.h"
@@ -220,6 +221,25 @@ TEST_F(WindowDisplay, TheRightButtonIsNoKeyWhereThePlayerTakesTheMouse) {
     screen_->button(button, false);
   }
   EXPECT_EQ(nextKey().code, KEY_PREVIOUS) << "the button at the side";
+}
+
+// Of a window that comes up under a mouse at rest, the press is the first that is heard.
+TEST_F(WindowDisplay, TheRightButtonIsToldWhereItIsPressed) {
+  bool told = false;
+  display_->hearMouse([&](const SurfaceMouse& mouse) {
+    told = told || std::pair(mouse.across, mouse.down) == std::pair(150.5 / kWidth, 20.5 / kHeight);
+    return true;
+  });
+  SDL_Event event{};
+  event.button.type = SDL_MOUSEBUTTONDOWN;
+  event.button.windowID = SDL_GetWindowID(SDL_GL_GetCurrentWindow());
+  event.button.button = SDL_BUTTON_RIGHT;
+  event.button.state = SDL_PRESSED;
+  event.button.x = 150;
+  event.button.y = 20;
+  ASSERT_EQ(SDL_PushEvent(&event), 1);
+  ASSERT_TRUE(display_->attend());
+  EXPECT_TRUE(told);
 }
 
 TEST_F(WindowDisplay, WhatIsDroppedOnItIsTold) {
