@@ -26,11 +26,11 @@ double ViewTone::spread(std::size_t component) const {
   return count_ > 0 ? std::sqrt(std::max(0.0, squares_[component] / count_ - m * m)) : 0;
 }
 
-bool isBlack(const ViewPicture& view) {
-  constexpr double kBlackSpread = 3;  // levels
+bool isBlank(const ViewPicture& view) {
+  constexpr double kBlackSpread = 3, kBlackMean = 24, kEvenSpread = 0.5;  // levels; black of limited range is 16
   ViewTone tone;
   tone.add(view);
-  return tone.spread(0) < kBlackSpread;
+  return tone.spread(0) < (tone.mean(0) <= kBlackMean ? kBlackSpread : kEvenSpread);
 }
 
 bool Exposure::isNeeded() const {

@@ -20,8 +20,9 @@ class ViewTone {
   std::array<double, 3> sum_{}, squares_{};
 };
 
-// True for an even view, such as the black of a fade: there is nothing to match in it.
-[[nodiscard]] bool isBlack(const ViewPicture& view);
+// True for a view in which there is nothing to match, such as the black of a fade with its noise, or an even white. A
+// faint bright view, such as fog, sky or snow, is none.
+[[nodiscard]] bool isBlank(const ViewPicture& view);
 
 // Maps a code of each component to gain * code + offset.
 struct Exposure {

@@ -104,7 +104,7 @@ Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) {
   const ShotPlan& shot = plan_.at(left.pts);
   const ViewPicture fixed = readView(left);
   ViewPicture moved = readView(right);
-  const bool black = isBlack(fixed) || isBlack(moved);
+  const bool black = isBlank(fixed) || isBlank(moved);
   const bool stays = black && last_ && &plan_.at(last_->pts) == &shot;
   if (!stays && shot.has_depth && !black) {
     if (shot.is_balanced) balance(moved, shot.exposure);

@@ -131,7 +131,7 @@ void StereoSurvey::look(const Frame& left, const Frame& right) {
   until_next_ = stride_ - 1;
   const ViewPicture a = readView(left), b = readView(right);
   ++pictures_;
-  const bool left_black = isBlack(a), right_black = isBlack(b);
+  const bool left_black = isBlank(a), right_black = isBlank(b);
   if (left_black != right_black) ++one_black_;
   if (left_black || right_black) return;
   if (difference(a, b) < kSame) ++alike_;

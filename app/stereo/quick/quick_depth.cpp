@@ -43,7 +43,7 @@ Frame QuickDepth::depthOf(const Frame& left, const Frame& right) {
   if (!range_) level(right, size);
   readStraight(right, size);
   if (swapped_) mirrorBoth();
-  const bool fades = range_ && isBlack(left_);  // in the black, the last relief of the shot stays
+  const bool fades = range_ && isBlank(left_);  // in the black, the last relief of the shot stays
   if (!range_) {                                // also where a shot comes out of the dark
     measureShot();
   } else if (!fades && ++since_look_ == kLookEvery) {
@@ -103,7 +103,7 @@ std::optional<QuickDepth::Range> QuickDepth::reach() {
 }
 
 void QuickDepth::measureShot() {
-  if (isBlack(left_) || isBlack(right_)) return;
+  if (isBlank(left_) || isBlank(right_)) return;
   ViewTone left_tone, right_tone;
   left_tone.add(left_);
   right_tone.add(right_);
