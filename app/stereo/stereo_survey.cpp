@@ -50,6 +50,7 @@ class DisparityCount {
   void add(const DisparityMap& map, const ViewPicture& left) {
     cv::Mat contrast;
     cv::morphologyEx(lumaOf(left), contrast, cv::MORPH_GRADIENT, cv::Mat::ones(1, 5, CV_8U));
+    pixels_ += map.size();
     for (std::size_t i = 0; i < map.size(); ++i) {
       if (contrast.data[i] < kTexture) continue;
       ++textured_;
@@ -59,9 +60,13 @@ class DisparityCount {
       ++all_;
     }
   }
-  // The share of the textured pixels that both views show.
+  // The share of the textured pixels that both views show; none if there are too few to tell it from chance.
   [[nodiscard]] double found() const {
-    return textured_ > 0 ? static_cast<double>(all_) / static_cast<double>(textured_) : 0;
+    constexpr double kLeastTextured = 0.005;
+    const auto textured = static_cast<double>(textured_);
+    return textured_ > 0 && textured >= kLeastTextured * static_cast<double>(pixels_)
+               ? static_cast<double>(all_) / textured
+               : 0;
   }
   // The disparity below which this share lies.
   [[nodiscard]] double below(double share) const {
@@ -76,7 +81,7 @@ class DisparityCount {
  private:
   int widest_;
   std::vector<std::uint64_t> counts_;
-  std::uint64_t all_ = 0, textured_ = 0;
+  std::uint64_t all_ = 0, textured_ = 0, pixels_ = 0;
 };
 
 // True if nine tenths of the samples have a disparity within half a pixel of zero, as two copies of one picture have: a

@@ -78,6 +78,19 @@ TEST(StereoSurvey, TheBlackAroundATitleDoesNotWidenTheRange) {
   EXPECT_LE(shot.range.highest, 9);
 }
 
+// A bright wall without texture, and 5 specks of 10 x 4 pixels in it: what is found there is chance.
+TEST(StereoSurvey, AFewSpecksInAnEvenShotTellNoRange) {
+  TwoViews even = boards();
+  even.boards = {{0, 0, 320, 200, 0, 0, {400, 400, 400}}};
+  for (int k = 0; k < 5; ++k) {
+    const double x = 60 + 45 * k, y = 40 + 25 * k;
+    even.boards.push_back({x, y, x + 10, y + 4, k % 2 == 0 ? 12.0 + k : -12.0 - k, 0, {60, 60, 60}});
+  }
+  const auto plan = planOf(even.left(), even.right());
+  ASSERT_FALSE(plan.has_value());
+  EXPECT_THAT(plan.error().message, HasSubstr("nothing in common"));
+}
+
 TEST(StereoSurvey, SeesThatTheViewsAreSwapped) {
   const TwoViews scene = boards();
   EXPECT_TRUE(planOf(scene.right(), scene.left()).value().views_swapped);
