@@ -212,6 +212,7 @@ TEST(FfmpegSource, CommentsAtTheEndOfAGifAreReadOnce) {
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(folder / "a.gif").has_value());
   const std::uint64_t before = bytesRead();
+  if (before == 0) GTEST_SKIP() << "the system does not tell how much a process reads";
   EXPECT_EQ(readAll(*source).size(), 10U);
   EXPECT_EQ(source->missing(), Duration(0));
   EXPECT_LT(bytesRead() - before, 5 * std::filesystem::file_size(folder / "a.gif"));
