@@ -135,7 +135,6 @@ Result<FramePair> PairSupply::pairFor(Frame color) {
   if (film_.info.packing == Packing::StereoTracks) {
     return FramePair{std::move(color), {}, true, {}, std::move(match->depth)};
   }
-  form_.stateMatrix(match->depth);  // the first was read before it was found
   return FramePair{std::move(color), std::move(match->depth), match->matched, {}, {}};
 }
 
@@ -146,7 +145,10 @@ Result<DepthFollower::Match> PairSupply::depthAt(MediaTime time) {
   depth_->setLive(film_.live);
   auto match = depth_->at(time);
   if (match && own_.away) return DepthFollower::Match{};  // flat, rather than with the relief of another moment
-  if (match) return match;
+  if (match) {
+    form_.stateMatrix(match->depth);  // the first was read before it was found
+    return match;
+  }
   const Error& error = match.error();
   const bool color_lost = beside && film_.isLoss(error);
   if (error.code == ErrorCode::Cancelled || color_lost) return film_.failOn(film_.depthUrl(), error);
