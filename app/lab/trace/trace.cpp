@@ -99,7 +99,8 @@ Outcome<TraceSummary> runTrace(const TraceOptions& options, const PairReader::Ba
   // At the path's own rate, since methods depend on the tick's length.
   if (path->size() > 1) config.tick_s = (path->back().t_s - path->front().t_s) / static_cast<double>(path->size() - 1);
   const auto parts = partsOf(options.method, config);
-  if (!parts) return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
+  if (!parts)
+    return failOn("--method " + options.method, {ErrorCode::InvalidArgument, 0, "unknown method; see --help"});
   const auto method = makeMethod(options.method, config);
   SafetyFilter safety({}, stiffness);
   const MonotonicClock clock;
