@@ -28,8 +28,8 @@ struct Recording {
 };
 
 // Times are those that names or lists say, exactly; numbers and ranks are counted at `frames_per_s`, by default 30.
-// Colour and depth whose names do not count them (they have nothing in common, or numbers that are usually more than 100
-// apart) are photos, one in 5 s. A number that is absent leaves a gap in time.
+// Colour and depth whose names do not count them (they have nothing in common, or numbers that are usually more than
+// 100 apart) are photos, one in 5 s. A number that is absent leaves a gap in time.
 //
 // Depth belongs to the colour picture with its number, or, of times, to the nearest one within 20 ms, each used once,
 // the nearest pairs first (as TUM's associate.py); it gets that picture's time. Other depth pictures keep their own

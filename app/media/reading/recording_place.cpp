@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "app/media/reading/beside/depthkit_file.h"
-#include "app/media/reading/float_reading.h"
 #include "app/media/reading/beside/lerobot_file.h"
+#include "app/media/reading/float_reading.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/print.h"
