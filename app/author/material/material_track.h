@@ -36,7 +36,7 @@ class MaterialTrack {
 
   [[nodiscard]] int cols() const noexcept { return cols_; }
   [[nodiscard]] int rows() const noexcept { return rows_; }
-  // The values of full codes, for the parts that the maps have: gray maps have stiffness alone.
+  // The material at the highest code, in the parts that the maps hold; a gray map holds stiffness alone.
   [[nodiscard]] const Material& scale() const noexcept { return scale_; }
 
   // The next picture of the film; `begins_shot`: nothing in it continues the one before. The result is valid until the
