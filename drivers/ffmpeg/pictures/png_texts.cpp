@@ -17,7 +17,6 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t kHeadBytes = 8;  // the signature; a chunk's length and type
 constexpr std::uint64_t kSumBytes = 4;
-constexpr int kMostChunks = 20000;  // that are looked at; libpng writes one for 8 KiB of the picture
 using Head = std::array<std::uint8_t, kHeadBytes>;
 
 // `read` fills a head from a place and says whether all of it is there.
@@ -29,12 +28,12 @@ bool countsTooMany(const Read& read) {
   };
   if (!read(0, head) || type(0) != "\x89PNG\r\n\x1a\n"sv) return false;
   int texts = 0, chunks = 0;
-  for (std::uint64_t place = kHeadBytes; texts <= kMostTexts && ++chunks < kMostChunks && read(place, head);) {
+  for (std::uint64_t place = kHeadBytes; texts <= kMostTexts && chunks <= kMostChunks && read(place, head); ++chunks) {
     if (type(4) == "tEXt" || type(4) == "zTXt" || type(4) == "iTXt") ++texts;
     if (type(4) == "IEND") break;
     place += kHeadBytes + AV_RB32(head.data()) + kSumBytes;
   }
-  return texts > kMostTexts;
+  return texts > kMostTexts || chunks > kMostChunks;
 }
 
 }  // namespace

@@ -11,8 +11,10 @@ namespace relievo::ffmpeg {
 
 // 100,000 texts take FFmpeg minutes, in which nothing can interrupt it; programs write up to a hundred.
 inline constexpr int kMostTexts = 1000;
+// To count them takes a second. libpng writes a chunk for 8 KiB of the picture.
+inline constexpr int kMostChunks = 100000;
 inline constexpr const char* kTooManyTexts =
-    "it is a PNG with more than 1000 texts, the most that it may have; save it anew without them";
+    "it is a PNG with more than 1000 texts or 100000 chunks, the most that it may have; save it anew without them";
 
 // False for what is no PNG, and for what cannot be read: FFmpeg says what is wrong with it.
 [[nodiscard]] bool hasTooManyTexts(std::span<const std::uint8_t> picture);

@@ -202,8 +202,9 @@ TEST(FfmpegSource, APngWithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecod
   std::ifstream file(folder / "plain.png", std::ios::binary);
   const std::string plain(std::istreambuf_iterator<char>(file), {});
   constexpr std::size_t kHeader = 33;  // the signature and IHDR
-  const auto with = [&](int texts) {
+  const auto with = [&](int texts, int others = 0) {
     std::string picture = plain.substr(0, kHeader);
+    for (int other = 0; other < others; ++other) picture += std::string("\0\0\0\0npTC....", 12);
     for (int text = 0; text < texts; ++text) picture += std::string("\0\0\0\3tEXta\0b\xdcI\xa2;", 15);
     return picture + plain.substr(kHeader);
   };
@@ -213,6 +214,10 @@ TEST(FfmpegSource, APngWithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecod
   const Error error = openErrorOf(folder / "more.png");
   EXPECT_EQ(error.code, ErrorCode::Unsupported);
   EXPECT_THAT(error.message, HasSubstr("more than 1000 texts"));
+  writeFile(folder / "behind.png", with(1001, 50000));
+  EXPECT_EQ(openErrorOf(folder / "behind.png").code, ErrorCode::Unsupported);
+  writeFile(folder / "chunks.png", with(0, 100001));
+  EXPECT_EQ(openErrorOf(folder / "chunks.png").code, ErrorCode::Unsupported) << "what is behind them is not looked at";
 
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(folder / "plain.png"));
