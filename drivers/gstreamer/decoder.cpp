@@ -9,6 +9,7 @@
 #include "drivers/gstreamer/gstreamer.h"
 #include "drivers/gstreamer/picture.h"
 #include "drivers/gstreamer/pipeline.h"
+#include "hal/media/leading_pictures.h"
 #include "platform/clock.h"
 #include "platform/log.h"
 
@@ -79,7 +80,7 @@ class GstreamerDecoder final : public VideoDecoder {
   struct Inside {
     std::uint64_t tag;
     MediaTime pts;
-    bool leads;  // its picture is shown before the first key frame
+    bool leads;  // of LeadingPictures
   };
 
   Result<Feed> feedPacket(const Packet& packet) override {
@@ -91,9 +92,8 @@ class GstreamerDecoder final : public VideoDecoder {
       countDamaged();
       return Feed::Accepted;
     }
-    if (!std::exchange(begun_, true)) first_ = *packet.pts;
-    if (first_ && *packet.pts > *first_) first_.reset();
-    inside_.push_back({++last_tag_, *packet.pts, first_ && *packet.pts < *first_});
+    if (!std::exchange(begun_, true)) leading_.begin(*packet.pts);
+    inside_.push_back({++last_tag_, *packet.pts, leading_.has(*packet.pts)});
     pipeline_->push(
         bufferOf(packet, toPipeline(*packet.pts), packet.dts ? toPipeline(*packet.dts) : GST_CLOCK_TIME_NONE));
     return Feed::Accepted;
@@ -155,8 +155,6 @@ class GstreamerDecoder final : public VideoDecoder {
     }
     return packet;
   }
-  // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
-  // left out without damage. Their packets come before those of pictures shown after it.
   void giveUp(const Inside& packet) noexcept {
     if (!packet.leads) countDamaged();
   }
@@ -217,8 +215,8 @@ class GstreamerDecoder final : public VideoDecoder {
   std::deque<Inside> inside_;  // packets that have no picture yet
   std::size_t inside_most_ = kUsuallyInside;
   std::uint64_t last_tag_ = 0;
-  bool begun_ = false;              // a packet was fed
-  std::optional<MediaTime> first_;  // its time, until one with a later time is fed
+  bool begun_ = false;  // a packet was fed
+  LeadingPictures leading_;
   bool draining_ = false;
   bool given_any_ = false;
 };

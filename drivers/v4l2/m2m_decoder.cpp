@@ -13,6 +13,7 @@
 #include "drivers/v4l2/m2m_node.h"
 #include "drivers/v4l2/m2m_picture_queue.h"
 #include "drivers/v4l2/v4l2.h"
+#include "hal/media/leading_pictures.h"
 #include "platform/clock.h"
 
 namespace relievo {
@@ -71,7 +72,7 @@ class M2mDecoder final : public VideoDecoder {
   struct Unanswered {
     std::uint64_t tag;
     MediaTime pts;
-    bool leads;  // its picture is shown before the first key frame
+    bool leads;  // of LeadingPictures
   };
 
   Result<Feed> feedPacket(const Packet& packet) override {
@@ -90,9 +91,8 @@ class M2mDecoder final : public VideoDecoder {
     if (auto queued = outcomeOf(packets_->queue(*index, *bytes, ++last_tag_)); !queued) {
       return std::unexpected(queued.error());
     }
-    if (!std::exchange(begun_, true)) first_ = *packet.pts;
-    if (first_ && *packet.pts > *first_) first_.reset();
-    unanswered_.push_back({last_tag_, *packet.pts, first_ && *packet.pts < *first_});
+    if (!std::exchange(begun_, true)) leading_.begin(*packet.pts);
+    unanswered_.push_back({last_tag_, *packet.pts, leading_.has(*packet.pts)});
     if (unanswered_.size() <= kMostUnanswered) return Feed::Accepted;
     giveUp(unanswered_.front());
     unanswered_.pop_front();
@@ -186,8 +186,6 @@ class M2mDecoder final : public VideoDecoder {
   void lose(std::uint64_t tag) {
     if (const auto packet = answered(tag)) giveUp(*packet);
   }
-  // Pictures shown before the first key frame may refer to pictures before it, as after a seek in open groups: they are
-  // left out without damage. Their packets come before those of pictures shown after it.
   void giveUp(const Unanswered& packet) noexcept {
     if (!packet.leads) countDamaged();
   }
@@ -279,10 +277,10 @@ class M2mDecoder final : public VideoDecoder {
 
   std::deque<Unanswered> unanswered_;  // packets that have no picture yet
   std::uint64_t last_tag_ = 0;
-  bool begun_ = false;              // a packet was fed
-  std::optional<MediaTime> first_;  // its time, until one with a later time is fed
-  bool change_due_ = false;         // the pictures' format changes
-  bool stopped_ = false;            // the last picture before a change or of a drain has come
+  bool begun_ = false;  // a packet was fed
+  LeadingPictures leading_;
+  bool change_due_ = false;  // the pictures' format changes
+  bool stopped_ = false;     // the last picture before a change or of a drain has come
   bool draining_ = false, drain_told_ = false;
   bool given_any_ = false;
   Duration idle_{0};
