@@ -20,10 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string stemOf(const std::string& name) {
-  return name.substr(0, name.rfind('.'));
-}
-
 // Files by their names without ending, in small letters.
 using FilesByStem = std::multimap<std::string, std::string>;
 FilesByStem byStem(const std::vector<std::string>& names) {
@@ -162,7 +158,7 @@ std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
   if (films.empty()) return picturesOverArray(place, color, depth);
   if (!color.empty()) return std::nullopt;
   const auto isColor = [](const std::string& name) {
-    return isOneOf(stemOf(name), {"rgb", "color", "colour", "video", "image"});
+    return isOneOf(std::string(stemOf(name)), {"rgb", "color", "colour", "video", "image"});
   };
   const auto film = films.size() == 1 ? films.begin() : std::ranges::find_if(films, isColor);
   if (film == films.end()) return std::nullopt;
@@ -189,7 +185,7 @@ std::vector<PlaylistEntry> pairedFilms(const std::string& folder, std::vector<st
     if (std::ranges::find(depths, names[i]) != depths.end()) continue;
     films.push_back({.url = place / names[i],
                      .depth_url = depths[i].empty() ? "" : (place / depths[i]).string(),
-                     .title = stemOf(names[i])});
+                     .title = std::string(stemOf(names[i]))});
   }
   return films;
 }

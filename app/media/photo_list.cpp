@@ -25,10 +25,6 @@ bool isPhoto(const std::string& name) {
   return std::ranges::find(kEndings, endingOf(name)) != kEndings.end();
 }
 
-std::string stemOf(const std::string& name) {
-  return lowerCase(name.substr(0, name.rfind('.')));
-}
-
 }  // namespace
 
 std::optional<std::vector<PlaylistEntry>> photosIn(
@@ -48,8 +44,8 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
                       ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
     if (fits && names.size() < kMostEntries) names.push_back(name);
     if (fits && isPhoto(name)) photos.push_back(name);
-    if (fits && isPhoto(name)) stems.insert(stemOf(name));
-    if (fits && mediaKindOf(name) == MediaKind::Film) films.insert(stemOf(name));
+    if (fits && isPhoto(name)) stems.insert(lowerCase(stemOf(name)));
+    if (fits && mediaKindOf(name) == MediaKind::Film) films.insert(lowerCase(stemOf(name)));
   }
   const auto streamsOf = [&](const std::string& path) {
     const auto source = make_source(path);
@@ -69,12 +65,12 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
   }
   if (!found || streamsOf(url).size() > 1) return std::nullopt;
   for (const std::string& name : photos) {
-    if (films.contains(stemOf(name)) && holdsMore(name)) moving.insert(stemOf(name));
+    if (films.contains(lowerCase(stemOf(name))) && holdsMore(name)) moving.insert(lowerCase(stemOf(name)));
   }
   // Films whose pictures are covers.
   if (moving.empty() && std::ranges::includes(stems, films) && filmsIn(url)) return std::nullopt;
   std::erase_if(names, [&](const std::string& name) {
-    return mediaKindOf(name) == MediaKind::Film && moving.contains(stemOf(name));
+    return mediaKindOf(name) == MediaKind::Film && moving.contains(lowerCase(stemOf(name)));
   });
   return pairedFilms(folder, std::move(names));
 }

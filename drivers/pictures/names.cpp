@@ -36,10 +36,6 @@ std::vector<Run> runsOf(std::string_view text) {
   return runs;
 }
 
-std::string_view stemOf(std::string_view name) {
-  return name.substr(0, name.rfind('.'));
-}
-
 std::optional<std::int64_t> scaled(std::string_view digits, std::int64_t ns) noexcept {
   const auto value = integerIn(digits);
   constexpr std::int64_t kMost = kMostSeconds * 1'000'000'000;

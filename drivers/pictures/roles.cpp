@@ -57,10 +57,6 @@ bool beginsWith(std::string_view name, char letter) {
          std::isdigit(static_cast<unsigned char>(name[2])) != 0;
 }
 
-std::string_view stemOf(std::string_view name) {
-  return name.substr(0, name.rfind('.'));
-}
-
 // The runs of digits, parted by spaces.
 std::string digitsOf(std::string_view name) {
   std::string digits;

@@ -41,15 +41,11 @@ constexpr std::array<Layout, 14> kLayouts{{
     {"image_2", "image_3", {}, "", Named::Folders},
 }};
 
-std::string stemOf(const std::string& name) {
-  return lowerCase(name.substr(0, name.rfind('.')));
-}
-
 // Empty if there is none.
 std::string find(const std::vector<std::string>& names, std::string_view stem) {
   std::string best;
   for (const std::string& name : names) {
-    if (stemOf(name) == stem && (best.empty() || depthRankOf(name) < depthRankOf(best))) best = name;
+    if (lowerCase(stemOf(name)) == stem && (best.empty() || depthRankOf(name) < depthRankOf(best))) best = name;
   }
   return best;
 }
@@ -86,7 +82,7 @@ std::optional<ViewSeries> viewsAmong(const std::vector<std::string>& names) {
   std::multiset<std::string> left, right;  // the rest of each name
   std::set<std::string> endings;           // depth may have another one
   for (const std::string& name : names) {
-    std::string rest = stemOf(name);
+    std::string rest = lowerCase(stemOf(name));
     const auto side = sideOf(rest);
     const Role role = roleOf(name);
     if (!side || role == Role::Depth || role == Role::Other) return std::nullopt;

@@ -28,6 +28,11 @@ enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 // "png" of "a/B.PNG": in lower case; empty if the name has no ending.
 [[nodiscard]] std::string endingOf(std::string_view name);
 
+// "B" of "B.PNG", the name of a file without its folder.
+[[nodiscard]] constexpr std::string_view stemOf(std::string_view name) noexcept {
+  return name.substr(0, name.rfind('.'));
+}
+
 // Whether a folder with so many films and pictures is a list of films; else it is a series of pictures.
 [[nodiscard]] constexpr bool isListOfFilms(std::size_t films, std::size_t pictures) noexcept {
   constexpr std::size_t kCovers = 10;  // pictures beside each film
