@@ -22,8 +22,7 @@ constexpr const char* kOtherPictures =
 constexpr const char* kHasDepth = "--depth-from is left out: the film has depth of its own";
 constexpr const char* kOneView =
     "--depth-from stereo is left out: the film has one view; if it has two, state their layout with --packing "
-    "stereo-sbs "
-    "or stereo-tb";
+    "stereo-sbs or stereo-tb";
 constexpr const char* kSecondMissing =
     "it is coded as two views (MV-HEVC), but contains only the first: it plays as 2D";
 constexpr const char* kSecondUnread =
