@@ -53,8 +53,10 @@ Bytes written(const std::string& text, bool hevc, bool lengths) {
   return packet;
 }
 
-Tags linesOf(const std::string& text) {
+// A zero byte ends the text.
+Tags linesOf(std::string text) {
   Tags tags;
+  text.resize(std::min(text.find('\0'), text.size()));
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     std::string line = text.substr(at, end - at);
