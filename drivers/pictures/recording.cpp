@@ -218,7 +218,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   };
   const auto known =
       counted ? rateOf(firstOf(found.color, timing.color), firstOf(found.depth, timing.depth)) : std::nullopt;
-  const bool unrelated = timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
+  const bool unrelated = both && timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
   const bool photos = both && !found.views && (unrelated || known == 0.0);
   const double usual = known.value_or(0) > 0 ? *known : kUsualRate;
   const double rate = frames_per_s.value_or(photos ? kPhotoRate : usual);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drivers/pictures/recording.h"
 #include "tests/unit/drivers/picture_files.h"
 
 namespace relievo {
@@ -68,6 +69,12 @@ TEST_F(Pictures, ASmallArrayBesideAPictureIsNotItsDepth) {
     for (const char* const name : {"0001", "0002"}) file("p/" + std::string(name) + ".npy", array(shape));
     EXPECT_EQ(read(folder_ / "p").depth.size(), 2U) << shape;
   }
+}
+
+TEST(PictureRecordings, DepthAloneMayHaveWordsAsItsNames) {
+  const auto recording = pictures::recordingOf({.depth = {"w/", {"beach.png", "hall.png"}}}, std::nullopt);
+  ASSERT_EQ(recording.depth.size(), 2U);
+  EXPECT_EQ(recording.depth[1].path, "w/hall.png");
 }
 
 TEST_F(Pictures, AKnownLayoutHasItsRateFromWithin) {
