@@ -103,11 +103,10 @@ struct UnreadFormat {
 };
 constexpr std::array<UnreadFormat, 10> kUnread{{
     {"SQLite format 3\0"sv,
-     "it is a database of SQLite: a ROS 2 bag, if its name ends in .db3; convert its folder to a ROS 1 bag, which is "
-     "read: pip install rosbags; rosbags-convert --src FOLDER --dst film.bag"},
+     "it is a database of SQLite, such as a ROS 2 bag, which this relievo was built without; build it with "
+     "-DRELIEVO_ROSBAG=ON"},
     {"\x89MCAP0\r\n"sv,
-     "it is an MCAP recording; convert its folder to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert "
-     "--src FOLDER --dst film.bag"},
+     "it is an MCAP recording, which this relievo was built without; build it with -DRELIEVO_ROSBAG=ON"},
     {"\x89HDF\r\n\x1a\n"sv, kHdf5},
     {"MATLAB 5.0 MAT"sv, kMatlab},
     {"ply\n"sv, kCloud},

@@ -8,9 +8,6 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr const char* kRos2Bag =
-    "this folder is a ROS 2 bag; convert it to a ROS 1 bag, which is read: pip install rosbags; rosbags-convert --src "
-    "FOLDER --dst film.bag";
 constexpr const char* kRaw =
     "this folder holds raw numbers without a picture size; convert each file: ffmpeg -f rawvideo -pix_fmt gray16le "
     "-video_size WIDTHxHEIGHT -i FILE FILE.png";
@@ -40,8 +37,8 @@ constexpr const char* kRecord3d =
 struct Way {
   const char *ending, *line;
 };
-constexpr Way kWays[] = {{"db3", kRos2Bag},  {"mcap", kRos2Bag}, {"raw", kRaw}, {"bin", kRaw},    {"yuv", kRawFilms},
-                         {"npz", kArchives}, {"hdf5", kHdf5},    {"h5", kHdf5}, {"mat", kMatlab}, {"depth", kRecord3d}};
+constexpr Way kWays[] = {{"raw", kRaw},   {"bin", kRaw}, {"yuv", kRawFilms}, {"npz", kArchives},
+                         {"hdf5", kHdf5}, {"h5", kHdf5}, {"mat", kMatlab},   {"depth", kRecord3d}};
 
 }  // namespace
 

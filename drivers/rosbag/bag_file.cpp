@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a bag's index, or makes one by going from record to record.
+// What all formats of bags have in common.
 #include "drivers/rosbag/bag_file.h"
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
-#include "drivers/rosbag/unpack.h"
+#include "drivers/rosbag/db3_file.h"
+#include "drivers/rosbag/mcap_file.h"
+#include "drivers/rosbag/ros1_file.h"
 
 namespace relievo::rosbag {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::size_t kMostChunks = std::size_t{1} << 20;
-constexpr std::size_t kMostConnections = std::size_t{1} << 16;
-constexpr std::size_t kMostEntries = std::size_t{1} << 24;      // of chunks by connection
-constexpr std::size_t kMostDescription = std::size_t{4} << 20;  // bytes of a connection's or a chunk's description
+constexpr std::size_t kMostEntries = std::size_t{1} << 24;  // of chunks by connection
 
 Error openError(const Error& error) noexcept {
   if (error.code == ErrorCode::NotFound) return {error.code, error.os_error, "there is no such file"};
@@ -23,74 +22,70 @@ Error openError(const Error& error) noexcept {
   return {error.code, error.os_error, "the file may not be read; check its permissions"};
 }
 
+std::string firstBytes(const AnsweredFile& file) {
+  std::array<std::uint8_t, 16> first{};
+  const std::size_t got = file.read(0, first).value_or(0);
+  return {first.begin(), first.begin() + static_cast<std::ptrdiff_t>(got)};
+}
+
+// ROS 2 has "sensor_msgs/msg/Image" where ROS 1 has "sensor_msgs/Image".
+std::string plainType(std::string type) {
+  constexpr std::string_view kMiddle = "/msg/";
+  if (const std::size_t at = type.find(kMiddle); at != type.npos) type.replace(at, kMiddle.size(), "/");
+  return type;
+}
+
 }  // namespace
 
-Result<void> BagFile::open(const std::string& path, const std::atomic<bool>& cancelled) {
+bool isBag(const AnsweredFile& file) {
+  const std::string first = firstBytes(file);
+  return first.starts_with(kAnyRos1Magic) || first.starts_with(kAnyMcapMagic) || first.starts_with(kSqliteMagic);
+}
+
+Result<std::unique_ptr<BagFile>> openBag(const std::string& path, const std::atomic<bool>& cancelled) {
   auto file = AnsweredFile::open(path);
   if (!file) return std::unexpected(openError(file.error()));
   const auto bytes = file->bytes();
   if (!bytes) return std::unexpected(bytes.error());
-  file_ = {.file = std::move(*file), .begin = 0, .bytes = *bytes, .memory = nullptr};
-  std::array<std::uint8_t, kMagic.size()> magic{};
-  if (file_.read(0, magic) < magic.size() || !std::equal(kMagic.begin(), kMagic.end(), magic.begin())) {
-    if (const auto failed = failure()) return std::unexpected(*failed);
-    return fail(ErrorCode::Unsupported, "only bags of the format 2.0 are supported; convert it (rosbag fix)");
-  }
-  const auto header = readRecord(file_, kMagic.size());
-  const bool indexed = header && header->op == Op::BagHeader && readIndex(*header, cancelled);
-  if (!indexed) scan(cancelled);
+  const std::string first = firstBytes(*file);
+  std::unique_ptr<BagFile> bag;
+  if (first.starts_with(kAnyMcapMagic)) bag = std::make_unique<McapFile>();
+  else if (first.starts_with(kSqliteMagic)) bag = std::make_unique<Db3File>();
+  else bag = std::make_unique<Ros1File>();
+  const Range range{.file = std::move(*file), .begin = 0, .bytes = *bytes, .memory = nullptr};
+  if (auto opened = bag->open(range, cancelled); !opened) return std::unexpected(opened.error());
+  return bag;
+}
+
+Result<void> BagFile::open(Range file, const std::atomic<bool>& cancelled) {
+  file_ = std::move(file);
+  auto read = readContents(cancelled);
   if (cancelled) return fail(ErrorCode::Cancelled, "interrupted while the bag was opened");
   if (const auto failed = failure()) return std::unexpected(*failed);
-  if (chunks_.empty()) return fail(ErrorCode::Corrupt, "the bag holds no data; it was cut off before the first chunk");
+  if (!read) return read;
+  if (!hasChunks()) return fail(ErrorCode::Corrupt, "the bag holds no data; it was cut off before the first chunk");
   return {};
 }
 
-// False if there is no index, or it is damaged or not whole.
-bool BagFile::readIndex(const Record& header, const std::atomic<bool>& cancelled) {
-  std::vector<Record> infos;
-  for (std::uint64_t at = header.index_pos; at > 0 && at < file_.bytes && !cancelled;) {
-    auto record = readRecord(file_, at);
-    if (!record || record->end() > file_.bytes || infos.size() >= kMostChunks) break;
-    at = record->end();
-    if (record->op == Op::Connection) addConnection(file_, *record);
-    if (record->op == Op::ChunkInfo) infos.push_back(std::move(*record));
-  }
-  std::ranges::sort(infos, {}, &Record::chunk_pos);
-  for (const Record& info : infos) {
-    const auto chunk = readRecord(file_, info.chunk_pos);
-    if (!chunk || chunk->op != Op::Chunk || chunk->end() > file_.bytes) break;
-    chunks_.push_back(info.chunk_pos);
-    addChunkInfo(info, static_cast<std::uint32_t>(chunks_.size() - 1));
-  }
-  if (!chunks_.empty() && chunks_.size() == header.chunk_count && !connections_.empty()) return true;
-  chunks_.clear();
-  connections_.clear();
-  entries_ = 0;
-  return false;
+const Range& BagFile::content(std::uint32_t chunk) {
+  if (unpacked_chunk_ == chunk) return unpacked_;
+  unpacked_chunk_ = chunk;
+  unpacked_ = {};
+  return unpacked_ = unpack(chunk);
 }
 
-void BagFile::addChunkInfo(const Record& record, std::uint32_t chunk) {
-  const auto data = readData(file_, record, kMostDescription);
-  if (!data) return;
-  ByteReader counts(*data);
-  while (counts.left() >= 2 * sizeof(std::uint32_t)) {
-    const auto connection = counts.value<std::uint32_t>();
-    addToChunk(connection, chunk, counts.value<std::uint32_t>());
-  }
+Range BagFile::inMemory(std::vector<std::uint8_t> plain) {
+  budget_ -= plain.size();
+  Range range;
+  range.bytes = plain.size();
+  range.memory = std::make_shared<const std::vector<std::uint8_t>>(std::move(plain));
+  return range;
 }
 
-void BagFile::addConnection(const Range& range, const Record& record) {
-  if (connections_.size() >= kMostConnections || connections_.contains(record.connection)) return;
-  const auto data = readData(range, record, kMostDescription);
-  if (!data) return;
-  Connection connection{.topic = record.topic, .type = {}, .chunks = {}};
-  ByteReader fields(*data);
-  while (fields.left() > 0) {
-    const std::string_view field = fields.text();
-    if (!fields.ok()) break;
-    if (field.starts_with("type=")) connection.type = field.substr(5);
-  }
-  connections_.emplace(record.connection, std::move(connection));
+void BagFile::addConnection(std::uint32_t id, std::string topic, std::string type, bool cdr) {
+  if (connections_.size() >= kMostConnections) return;
+  connections_.try_emplace(
+      id, Connection{.topic = std::move(topic), .type = plainType(std::move(type)), .chunks = {}, .cdr = cdr});
 }
 
 void BagFile::addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uint64_t messages) {
@@ -102,82 +97,25 @@ void BagFile::addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uin
   chunks.push_back(chunk);
 }
 
-// A chunk is followed by an index of its messages, one record for each connection. Chunks with connections not met
-// before are searched for them, and the last chunk always: its index may have been cut off.
-void BagFile::scan(const std::atomic<bool>& cancelled) {
-  std::vector<Record> index;  // of the last chunk
-  for (std::uint64_t at = kMagic.size(); at < file_.bytes && chunks_.size() < kMostChunks && !cancelled;) {
-    const std::uint64_t begin = at;
-    auto record = readRecord(file_, at);
-    if (!record) break;
-    at = record->end();
-    if (record->op == Op::Connection) addConnection(file_, *record);
-    if (record->op == Op::Index && index.size() < kMostConnections) index.push_back(std::move(*record));
-    if (record->op != Op::Chunk) continue;
-    if (!chunks_.empty()) addIndexed(index);
-    index.clear();
-    chunks_.push_back(begin);
-  }
-  if (!chunks_.empty()) scanChunk(static_cast<std::uint32_t>(chunks_.size() - 1));
+void BagFile::clearConnections() noexcept {
+  connections_.clear();
+  entries_ = 0;
 }
 
-void BagFile::addIndexed(const std::vector<Record>& index) {
-  const auto chunk = static_cast<std::uint32_t>(chunks_.size() - 1);
-  const auto known = [&](const Record& record) { return connections_.contains(record.connection); };
-  if (index.empty() || !std::ranges::all_of(index, known)) return scanChunk(chunk);
-  constexpr std::uint32_t kEntryBytes = 12;  // time and offset of a message
-  for (const Record& record : index) addToChunk(record.connection, chunk, record.data_bytes / kEntryBytes);
+std::optional<Message> readMessage(const BagFile& bag, const Range& content, const Record& record) {
+  auto data = readData(content, record, kMostMessage);
+  const auto connection = bag.connections().find(record.connection);
+  if (!data || connection == bag.connections().end()) return std::nullopt;
+  return Message{std::move(*data), connection->second.cdr};
 }
 
-void BagFile::scanChunk(std::uint32_t chunk) {
-  const Range& range = content(chunk);
-  for (std::uint64_t at = 0; at < range.bytes;) {
-    const auto record = readRecord(range, at);
-    if (!record || record->end() > range.bytes) return;
-    at = record->end();
-    if (record->op == Op::Connection) addConnection(range, *record);
-    if (record->op == Op::Message) addToChunk(record->connection, chunk, 1);
-  }
-}
-
-const Range& BagFile::content(std::uint32_t chunk) {
-  if (unpacked_chunk_ == chunk) return unpacked_;
-  unpacked_chunk_ = chunk;
-  unpacked_ = {};
-  const auto record = readRecord(file_, chunks_[chunk]);
-  if (!record || record->data_begin > file_.bytes) return unpacked_;
-  const Range packed{.file = file_.file,
-                     .begin = record->data_begin,
-                     .bytes = std::min<std::uint64_t>(record->data_bytes, file_.bytes - record->data_begin),
-                     .memory = nullptr};
-  if (record->compression == "none") return unpacked_ = packed;
-  if (record->size > std::min<std::uint64_t>(kMostChunk, budget_)) return unpacked_;
-  std::vector<std::uint8_t> plain;
-  if (record->compression == "lz4") plain = unpackLz4(packed, record->size);
-  if (record->compression == "bz2") plain = unpackBz2(packed, record->size);
-  budget_ -= plain.size();
-  unpacked_.bytes = plain.size();
-  unpacked_.memory = std::make_shared<const std::vector<std::uint8_t>>(std::move(plain));
-  return unpacked_;
-}
-
-std::optional<std::vector<std::uint8_t>> firstMessage(BagFile& bag, std::uint32_t connection) {
-  std::optional<std::vector<std::uint8_t>> first;
+std::optional<Message> firstMessage(BagFile& bag, std::uint32_t connection) {
+  std::optional<Message> first;
   eachMessage(bag, connection, 1, [&](const Range& content, const Record& record) {
-    first = readData(content, record, kMostMessage);
+    first = readMessage(bag, content, record);
     return false;
   });
   return first;
-}
-
-std::optional<Record> MessageWalk::next() {
-  while (at_ < content_->bytes) {
-    auto record = readRecord(*content_, at_);
-    if (!record || record->end() > content_->bytes) return std::nullopt;
-    at_ = record->end();
-    if (record->op == Op::Message) return record;
-  }
-  return std::nullopt;
 }
 
 }  // namespace relievo::rosbag

@@ -84,8 +84,7 @@ std::optional<Pose> poseOf(BagFile& bag, const std::string& stream) {
     if (!connection.topic.starts_with(prefix) || connection.messages == 0) continue;
     const auto message = firstMessage(bag, id);
     if (!message) return std::nullopt;
-    ByteReader reader(*message);
-    const auto motion = parseTransform(reader);
+    const auto motion = parseTransform(*message);
     return motion ? std::optional(Pose{connection.topic.substr(prefix.size()), *motion}) : std::nullopt;
   }
   return std::nullopt;
@@ -102,7 +101,7 @@ FrameTree readFrames(BagFile& bag) {
   for (const auto& [id, connection] : bag.connections()) {
     if (connection.type != "tf2_msgs/TFMessage" && connection.type != "tf/tfMessage") continue;
     eachMessage(bag, id, kMostMotions, [&](const Range& content, const Record& record) {
-      const auto message = readData(content, record, kMostMessage);
+      const auto message = readMessage(bag, content, record);
       if (!message) return false;
       for (FrameMotion& motion : parseFrameMotions(*message)) {
         tree.emplace(withoutSlash(motion.child), std::move(motion));
@@ -182,7 +181,7 @@ std::optional<double> unitOf(BagFile& bag, const Topic& depth) {
     if (!connection.topic.starts_with(parentOf(*stream) + "/option/Depth") || connection.messages == 0) continue;
     if (!speaksOf(connection.topic, "units/value")) continue;
     const auto message = firstMessage(bag, id);
-    const float metres = message ? ByteReader(*message).value<float>() : 0;
+    const float metres = message ? ByteReader(message->bytes).value<float>() : 0;
     if (metres > 0) return static_cast<double>(metres) * kMmPerMetre;
   }
   return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ROS messages that describe pictures and cameras.
+// The messages of ROS 1 and ROS 2 that describe pictures and cameras.
 #pragma once
 
 #include <array>
@@ -13,6 +13,12 @@
 
 namespace relievo::rosbag {
 
+// A serialised message: packed as by ROS 1, or as CDR in little endian (OMG DDS-RTPS 2.3, 10.2), as by ROS 2.
+struct Message {
+  std::vector<std::uint8_t> bytes;
+  bool cdr = false;
+};
+
 // sensor_msgs/Image and sensor_msgs/CompressedImage.
 struct PictureMessage {
   Duration stamp{0};
@@ -24,9 +30,9 @@ struct PictureMessage {
   std::size_t data_begin = 0, data_bytes = 0;  // in the message
   std::optional<float> unit_m;                 // RealSense: of a depth code
 };
-[[nodiscard]] std::optional<PictureMessage> parsePicture(Bytes message, bool compressed);
+[[nodiscard]] std::optional<PictureMessage> parsePicture(const Message& message, bool compressed);
 
-// The stamp of any message that begins with a std_msgs/Header.
+// The stamp of any message that begins with a std_msgs/Header; of both serialisations.
 [[nodiscard]] std::optional<Duration> parseStamp(Bytes message);
 
 // sensor_msgs/CameraInfo. `intrinsics` is the matrix K, row by row, `projection` the matrix P of rectified pictures.
@@ -37,7 +43,7 @@ struct CameraMessage {
   std::array<double, 9> intrinsics{};
   std::array<double, 12> projection{};
 };
-[[nodiscard]] std::optional<CameraMessage> parseCamera(Bytes message);
+[[nodiscard]] std::optional<CameraMessage> parseCamera(const Message& message);
 
 // A rigid motion: p -> rotation x p + translation, in metres.
 struct Motion {
@@ -49,13 +55,13 @@ struct Motion {
 [[nodiscard]] Motion chain(const Motion& first, const Motion& second) noexcept;
 
 // geometry_msgs/Transform. Nullopt unless its quaternion has the length 1.
-[[nodiscard]] std::optional<Motion> parseTransform(ByteReader& reader);
+[[nodiscard]] std::optional<Motion> parseTransform(const Message& message);
 
 // tf2_msgs/TFMessage. `motion` maps points of the child's frame to the parent's.
 struct FrameMotion {
   std::string parent, child;
   Motion motion;
 };
-[[nodiscard]] std::vector<FrameMotion> parseFrameMotions(Bytes message);
+[[nodiscard]] std::vector<FrameMotion> parseFrameMotions(const Message& message);
 
 }  // namespace relievo::rosbag

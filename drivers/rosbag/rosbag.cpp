@@ -17,7 +17,6 @@ namespace {
 
 using namespace rosbag;
 
-constexpr std::string_view kAnyMagic = "#ROSBAG V";
 constexpr Duration kOneClock = std::chrono::seconds(2);  // stamps of one clock lag behind the recording by less
 constexpr double kUsualUnitMm = 1;
 
@@ -47,12 +46,12 @@ class RosbagSource final : public MediaSource {
  private:
   Result<Description> openSource(const std::string& url) override {
     cancelled_ = false;
-    if (auto opened = bag_.open(url.starts_with("file:") ? url.substr(5) : url, cancelled_); !opened) {
-      return std::unexpected(opened.error());
-    }
-    Topics topics = findTopics(bag_);
+    auto bag = openBag(url.starts_with("file:") ? url.substr(5) : url, cancelled_);
+    if (!bag) return std::unexpected(bag.error());
+    bag_ = std::move(*bag);
+    Topics topics = findTopics(*bag_);
     if (cancelled_) return std::unexpected(cancelledError());
-    if (const auto failure = bag_.failure()) return std::unexpected(*failure);
+    if (const auto failure = bag_->failure()) return std::unexpected(*failure);
     if (topics.pictures.empty()) {
       if (topics.packed_depth) return fail(ErrorCode::Unsupported, kPackedDepth);
       if (topics.unknown) return fail(ErrorCode::Unsupported, kNoKnownPictures);
@@ -66,7 +65,7 @@ class RosbagSource final : public MediaSource {
     chooseChunks(film);
     place_ = {};
     auto description = describe(film);
-    bag_.endSearch();
+    bag_->endSearch();
     return description;
   }
 
@@ -115,12 +114,12 @@ class RosbagSource final : public MediaSource {
       auto& tags = description.streams[*film.depth].tags;
       tags.insert(depth.kind.tags.begin(), depth.kind.tags.end());
       if (depth.kind.tags.empty()) {
-        const double unit = unitOf(bag_, depth).value_or(kUsualUnitMm);
+        const double unit = unitOf(*bag_, depth).value_or(kUsualUnitMm);
         tags.insert({{"DEPTH_UNIT", std::to_string(unit)}, {"DEPTH_INVALID", "0+65535"}});
       }
       const auto unit = tags.find("DEPTH_UNIT");
       const auto registration = film.color && unit != tags.end()
-                                    ? registrationOf(bag_, depth, topics_[*film.color], std::stod(unit->second))
+                                    ? registrationOf(*bag_, depth, topics_[*film.color], std::stod(unit->second))
                                     : std::nullopt;
       if (registration) tags["DEPTH_REGISTRATION"] = *registration;
     }
@@ -159,8 +158,8 @@ class RosbagSource final : public MediaSource {
 
   std::optional<Duration> lastTime(const Topic& topic) {
     std::optional<Duration> last;
-    const Range& content = bag_.content(topic.chunks.back());
-    MessageWalk walk(content);
+    const Range& content = bag_->content(topic.chunks.back());
+    MessageWalk walk(*bag_, content);
     while (const auto record = walk.next()) {
       if (isOf(topic, record->connection)) last = timeOf(content, *record);
     }
@@ -170,13 +169,13 @@ class RosbagSource final : public MediaSource {
   Result<std::optional<Packet>> readPacket() override {
     while (place_.chunk < chunks_.size()) {
       if (cancelled_) return std::unexpected(cancelledError());
-      const Range& content = bag_.content(chunks_[place_.chunk]);
-      MessageWalk walk(content, place_.at);
+      const Range& content = bag_->content(chunks_[place_.chunk]);
+      MessageWalk walk(*bag_, content, place_.at);
       const auto record = walk.next();
       auto packet = record ? packetOf(content, *record) : std::nullopt;
       place_ = record ? Place{place_.chunk, walk.at()} : Place{place_.chunk + 1, 0};
       if (packet) return packet;
-      if (const auto failure = bag_.failure()) return std::unexpected(*failure);
+      if (const auto failure = bag_->failure()) return std::unexpected(*failure);
     }
     if (cancelled_) return std::unexpected(cancelledError());
     return std::nullopt;
@@ -186,10 +185,10 @@ class RosbagSource final : public MediaSource {
     const auto stream = streams_of_.find(record.connection);
     if (stream == streams_of_.end()) return std::nullopt;
     const Topic& topic = topics_[stream->second];
-    auto message = readData(content, record, kMostMessage);
+    auto message = readMessage(*bag_, content, record);
     const auto picture = message ? parsePicture(*message, topic.compressed) : std::nullopt;
     if (!picture || (!topic.compressed && picture->encoding != topic.first.encoding)) return std::nullopt;
-    auto packet = rosbag::packetOf(topic.kind, *picture, std::move(*message));
+    auto packet = rosbag::packetOf(topic.kind, *picture, std::move(message->bytes));
     const auto time = timeOf(content, record);
     if (!packet || !time) return std::nullopt;
     packet->stream = static_cast<int>(stream->second);
@@ -225,8 +224,8 @@ class RosbagSource final : public MediaSource {
   std::optional<std::pair<std::uint64_t, Duration>> pictureIn(const Topic& topic, std::uint32_t chunk,
                                                               Duration target) {
     std::optional<std::pair<std::uint64_t, Duration>> found;
-    const Range& content = bag_.content(chunk);
-    MessageWalk walk(content);
+    const Range& content = bag_->content(chunk);
+    MessageWalk walk(*bag_, content);
     for (;;) {
       const std::uint64_t at = walk.at();
       const auto record = walk.next();
@@ -241,7 +240,7 @@ class RosbagSource final : public MediaSource {
   }
 
   void closeSource() noexcept override {
-    bag_.close();
+    bag_.reset();
     topics_.clear();
     chunks_.clear();
     streams_of_.clear();
@@ -249,7 +248,7 @@ class RosbagSource final : public MediaSource {
   void interrupted() noexcept override { cancelled_ = true; }
 
   std::atomic<bool> cancelled_{false};
-  BagFile bag_;
+  std::unique_ptr<BagFile> bag_;
   std::vector<Topic> topics_;
   std::vector<std::uint32_t> chunks_;                // with pictures of the film, in the file's order
   std::map<std::uint32_t, std::size_t> streams_of_;  // the stream of each connection whose topic is in the film
@@ -261,10 +260,8 @@ class RosbagSource final : public MediaSource {
 }  // namespace
 
 bool isRosbag(const std::string& path) {
-  const std::string plain = path.starts_with("file:") ? path.substr(5) : path;
-  const auto file = AnsweredFile::open(plain);
-  std::array<std::uint8_t, kAnyMagic.size()> magic{};
-  return file && file->read(0, magic).value_or(0) == magic.size() && std::ranges::equal(magic, kAnyMagic);
+  const auto file = AnsweredFile::open(path.starts_with("file:") ? path.substr(5) : path);
+  return file && isBag(*file);
 }
 
 std::unique_ptr<MediaSource> makeRosbagSource() {

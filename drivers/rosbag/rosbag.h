@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source for ROS 1 bags (format 2.0): recordings of RealSense cameras and of ROS topics.
+// Media source for bags of ROS 1 (format 2.0) and ROS 2 (MCAP): recordings of RealSense cameras and of ROS topics.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace relievo {
 // True for a regular file that begins like a bag of any version.
 [[nodiscard]] bool isRosbag(const std::string& path);
 
-// Chunks may be plain, lz4 or bz2. A bag with an index is opened from it; one without (the recording was cut off) is
-// scanned from record to record, without reading the pictures. Neither is ever read whole.
+// Chunks may be plain, lz4, bz2 or zstd. A bag with an index is opened from it; one without (the recording was cut off)
+// is scanned from record to record, without reading the pictures. Neither is ever read whole.
 //
 // Each topic of pictures (sensor_msgs/Image, sensor_msgs/CompressedImage) is a stream whose tag TITLE is the topic. One
 // depth topic, and the colour topic nearest to it by name, are Video; all others are Other. Infrared takes the place of

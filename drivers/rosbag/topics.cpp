@@ -43,9 +43,9 @@ Role roleOf(const std::string& topic, const PictureKind& kind) {
 bool look(BagFile& bag, Topic& topic) {
   bool known = false;
   eachMessage(bag, topic.connections.front(), 1, [&](const Range& content, const Record& record) {
-    const auto message = readData(content, record, kMostMessage);
+    const auto message = readMessage(bag, content, record);
     const auto picture = message ? parsePicture(*message, topic.compressed) : std::nullopt;
-    const auto kind = picture ? kindOf(*picture, *message) : std::nullopt;
+    const auto kind = picture ? kindOf(*picture, message->bytes) : std::nullopt;
     if (!kind) return false;
     topic.first = *picture;
     topic.first_time = record.time;

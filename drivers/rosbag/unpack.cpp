@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Feeds liblz4 and libbz2 piece by piece.
+// Feeds liblz4, libbz2 and libzstd piece by piece.
 #include "drivers/rosbag/unpack.h"
 
 #include <bzlib.h>
 #include <lz4frame.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -69,6 +70,21 @@ std::vector<std::uint8_t> unpackBz2(const Range& packed, std::size_t plain_bytes
     return status == BZ_OK;
   });
   BZ2_bzDecompressEnd(&stream);
+  return plain;
+}
+
+std::vector<std::uint8_t> unpackZstd(const Range& packed, std::size_t plain_bytes) {
+  ZSTD_DStream* const stream = ZSTD_createDStream();
+  if (stream == nullptr) return {};
+  auto plain = unpack(packed, plain_bytes, [&](Bytes& input, std::span<std::uint8_t>& room) {
+    ZSTD_inBuffer in{input.data(), input.size(), 0};
+    ZSTD_outBuffer out{room.data(), room.size(), 0};
+    const std::size_t left = ZSTD_decompressStream(stream, &out, &in);
+    room = room.subspan(out.pos);
+    input = input.subspan(in.pos);
+    return ZSTD_isError(left) == 0 && left != 0;
+  });
+  ZSTD_freeDStream(stream);
   return plain;
 }
 

@@ -13,5 +13,6 @@ namespace relievo::rosbag {
 // grows with what comes out, not with what is announced.
 [[nodiscard]] std::vector<std::uint8_t> unpackLz4(const Range& packed, std::size_t plain_bytes);
 [[nodiscard]] std::vector<std::uint8_t> unpackBz2(const Range& packed, std::size_t plain_bytes);
+[[nodiscard]] std::vector<std::uint8_t> unpackZstd(const Range& packed, std::size_t plain_bytes);
 
 }  // namespace relievo::rosbag

@@ -22,6 +22,7 @@
 #include "tests/support/film/recording/heic_writer.h"
 #include "tests/support/film/recording/kinect_mkv.h"
 #include "tests/support/film/recording/oni_writer.h"
+#include "tests/support/film/recording/ros2_bags.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {
@@ -207,8 +208,8 @@ std::vector<std::string> alone(const std::string& folder, const std::string& byt
   write(folder + "/x" + kEnding, bytes);
   return {folder + "/x" + kEnding};
 }
-constexpr char kBag[] = ".bag", kOni[] = ".oni", kExr[] = ".exr", kPfm[] = ".pfm", kNpy[] = ".npy", kHeic[] = ".heic",
-               kJpg[] = ".jpg", kMpo[] = ".mpo";
+constexpr char kBag[] = ".bag", kMcap[] = ".mcap", kDb3[] = ".db3", kOni[] = ".oni", kExr[] = ".exr", kPfm[] = ".pfm",
+               kNpy[] = ".npy", kHeic[] = ".heic", kJpg[] = ".jpg", kMpo[] = ".mpo";
 
 std::vector<std::string> besideColor(const std::string& folder, const std::string& depth) {
   static const std::string color = picture("a.png", "png", "rgb24");
@@ -217,6 +218,8 @@ std::vector<std::string> besideColor(const std::string& folder, const std::strin
 }
 const Kind kKinds[] = {
     {"bag", bag, alone<kBag>},
+    {"mcap", [] { return test::mcapOf(test::depthOnRos2(), {.compression = "zstd"}); }, alone<kMcap>},
+    {"db3", [] { return test::db3Of(test::depthOnRos2()); }, alone<kDb3>},
     {"oni", oni, alone<kOni>},
     {"exr", exr, alone<kExr>},
     {"pfm", pfm, alone<kPfm>},

@@ -53,17 +53,18 @@ TEST_P(BoardRecipes, EachLibraryOfTheBoxIsADependency) {
   const std::string recipe = textOf(GetParam());
   const bool yocto = GetParam() == kYocto;
   Words missing;
-  for (const std::string name : {"alsa-lib", "cli11", "ffmpeg", "glm", "libass", "libdrm", "libevdev", "tomlplusplus",
-                                 "tiff", "lz4", "bzip2", "zlib", "libheif", yocto ? "libusb1" : "libusb",
-                                 yocto ? "libsdl2" : "sdl2", yocto ? "nlohmann-json" : "json-for-modern-cpp"}) {
+  for (const std::string name :
+       {"alsa-lib", "cli11", "ffmpeg", "glm", "libass", "libdrm", "libevdev", "tomlplusplus", "tiff", "lz4", "bzip2",
+        "zlib", "zstd", "libheif", yocto ? "sqlite3" : "sqlite", yocto ? "libusb1" : "libusb",
+        yocto ? "libsdl2" : "sdl2", yocto ? "nlohmann-json" : "json-for-modern-cpp"}) {
     if (!std::regex_search(recipe, std::regex("[\\s\",]" + name + "[\\s\",]"))) missing.insert(name);
   }
   EXPECT_THAT(missing, IsEmpty());
   // A package that is added to CMakeLists.txt must be added here and in the list above.
   EXPECT_EQ(wordsOf(textOf("CMakeLists.txt"), R"((?:find_package|pkg_check_modules)\((\w+))"),
-            (Words{"Threads", "PkgConfig", "glm",      "CLI11", "tomlplusplus", "nlohmann_json", "FFMPEG", "TIFF",
-                   "ALSA",    "LIBUSB",    "LIBEVDEV", "EGL",   "LIBDRM",       "GBM",           "SDL2",   "GLES",
-                   "ASS",     "LZ4",       "BZip2",    "ZLIB",  "GSTREAMER",    "OPENEXR",       "HEIF"}));
+            (Words{"Threads", "PkgConfig", "glm",  "CLI11",  "tomlplusplus", "nlohmann_json", "FFMPEG", "TIFF", "ALSA",
+                   "LIBUSB",  "LIBEVDEV",  "EGL",  "LIBDRM", "GBM",          "SDL2",          "GLES",   "ASS",  "LZ4",
+                   "BZip2",   "ZLIB",      "ZSTD", "SQLITE", "GSTREAMER",    "OPENEXR",       "HEIF"}));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "drivers/rosbag/rosbag.h"
 #include "tests/fuzz/film_fuzz.h"
 #include "tests/support/film/recording/bag_writer.h"
+#include "tests/support/film/recording/ros2_bags.h"
 
 namespace relievo {
 namespace {
@@ -45,8 +46,15 @@ std::string soundBag(const std::string& compression, bool indexed) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace relievo;
-  static const std::array<std::string, 4> kBags{soundBag("none", true), soundBag("none", false), soundBag("lz4", true),
-                                                soundBag("bz2", false)};
+  static const std::array<std::string, 8> kBags{
+      soundBag("none", true),
+      soundBag("none", false),
+      soundBag("lz4", true),
+      soundBag("bz2", false),
+      test::mcapOf(test::depthOnRos2(), {}),
+      test::mcapOf(test::depthOnRos2(), {.compression = "zstd", .summary = false}),
+      test::mcapOf(test::depthOnRos2(), {.chunks = false}),
+      test::db3Of(test::depthOnRos2())};
   if (size == 0) return 0;
   std::string bag = kBags[bytes[0] % kBags.size()];
   std::size_t place = bag.size();

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -89,6 +90,18 @@ class RosbagSource : public testing::Test {
   TemporaryFolder folder_;
   int saved_ = 0;
 };
+
+// Ways to write the same recording: kPictures of /camera/depth/image_raw and of /camera/color/image_raw.
+struct Variant {
+  const char* name;
+  std::function<std::string()> bag;
+};
+inline std::string nameOf(const testing::TestParamInfo<Variant>& info) {
+  return info.param.name;
+}
+class RosbagVariants : public RosbagSource, public testing::WithParamInterface<Variant> {};
+// Those that can be played though their end is missing.
+class RosbagCutOff : public RosbagVariants {};
 
 inline const StreamInfo* streamOf(const MediaSource& source, const std::string& title) {
   for (const StreamInfo& stream : source.streams()) {

@@ -114,8 +114,8 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
     std::string_view begin;
     std::vector<const char*> words;
   } kFormats[] = {
-      {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "rosbags-convert --src FOLDER --dst film.bag"}},
-      {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "rosbags-convert --src FOLDER --dst film.bag"}},
+      {"a.db3", "SQLite format 3\0"sv, {"ROS 2 bag", "RELIEVO_ROSBAG"}},
+      {"a.mcap", "\x89MCAP0\r\n"sv, {"MCAP", "RELIEVO_ROSBAG"}},
       {"a.h5", "\x89HDF\r\n\x1a\n"sv, {"HDF5", ".npy", "h5py.File"}},
       {"frame.0000.depth_meters.hdf5", "\x89HDF\r\n\x1a\n"sv, {"Hypersim", "name its folder"}},
       {"a.bag", "#ROSBAG V2.0\n"sv, {"ROS bag", "RELIEVO_ROSBAG"}},
