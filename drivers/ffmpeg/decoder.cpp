@@ -120,6 +120,7 @@ class FfmpegDecoder final : public VideoDecoder {
         FramePtr picture(av_frame_alloc());
         if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
         av_frame_move_ref(picture.get(), picture_.get());
+        av_dict_free(&picture->metadata);  // a PNG's texts, which nobody reads
         moment = views_.add(std::move(picture));
         if (!moment.base) continue;
       }

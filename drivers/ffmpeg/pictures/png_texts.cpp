@@ -27,13 +27,17 @@ bool countsTooMany(const Read& read) {
     return std::string_view(reinterpret_cast<const char*>(head.data()) + from, kHeadBytes - from);
   };
   if (!read(0, head) || type(0) != "\x89PNG\r\n\x1a\n"sv) return false;
-  int texts = 0, chunks = 0;
-  for (std::uint64_t place = kHeadBytes; texts <= kMostTexts && chunks <= kMostChunks && read(place, head); ++chunks) {
+  int texts = 0, chunks = 0, profiles = 0;
+  std::uint64_t packed = 0;
+  const auto too_many = [&] { return texts > kMostTexts || chunks > kMostChunks || packed > kMostPackedBytes; };
+  for (std::uint64_t place = kHeadBytes; !too_many() && read(place, head); ++chunks) {
+    const std::uint64_t bytes = AV_RB32(head.data());
     if (type(4) == "tEXt" || type(4) == "zTXt" || type(4) == "iTXt") ++texts;
+    if (type(4) == "zTXt" || (type(4) == "iCCP" && profiles++ > 0)) packed += bytes;  // one profile is usual
     if (type(4) == "IEND") break;
-    place += kHeadBytes + AV_RB32(head.data()) + kSumBytes;
+    place += kHeadBytes + bytes + kSumBytes;
   }
-  return texts > kMostTexts || chunks > kMostChunks;
+  return too_many();
 }
 
 }  // namespace

@@ -13,11 +13,13 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/watch.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/ts_patch.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 extern "C" {
+#include <libavutil/frame.h>
 #include <libavutil/mem.h>
 }
 
@@ -229,6 +231,38 @@ TEST(FfmpegSource, APngWithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecod
     ASSERT_TRUE(decoder->feed({.data = bytes->data(), .bytes = bytes->size(), .keyframe = true, .owner = bytes}));
     EXPECT_EQ(decoder->damaged(), texts > 1000 ? 1u : 0u);
   }
+}
+
+// A compressed text becomes up to a thousand times as long: ten of 200 KB took over 6 GB.
+TEST(FfmpegSource, APngWithLongCompressedTextsIsRefusedAndTextsAreNotKept) {
+  TemporaryFolder folder;
+  makeClip(folder / "plain.png", {{.codec = "png", .pix_fmt = "gray", .width = 64, .height = 48, .frames = 1}});
+  const std::string plain = test::contentOf(folder / "plain.png");
+  constexpr std::size_t kHeader = 33;  // the signature and IHDR
+  const auto chunk = [](const std::string& type, std::uint32_t bytes) {
+    std::string length;
+    for (const int shift : {24, 16, 8, 0}) length += static_cast<char>(bytes >> shift & 0xFF);
+    return length + type + "a" + std::string(bytes - 1, '\0') + "....";  // FFmpeg does not check the sum
+  };
+  const auto with = [&](const std::string& more) {
+    writeFile(folder / "a.png", plain.substr(0, kHeader) + more + plain.substr(kHeader));
+    return folder / "a.png";
+  };
+  EXPECT_TRUE(makeFfmpegSource()->open(with(chunk("zTXt", 131072))));
+  EXPECT_EQ(openErrorOf(with(chunk("zTXt", 131073))).code, ErrorCode::Unsupported);
+  EXPECT_EQ(openErrorOf(with(chunk("zTXt", 70000) + chunk("zTXt", 70000))).code, ErrorCode::Unsupported);
+  EXPECT_TRUE(makeFfmpegSource()->open(with(chunk("iCCP", 500000))));
+  EXPECT_EQ(openErrorOf(with(chunk("iCCP", 10) + chunk("iCCP", 500000))).code, ErrorCode::Unsupported);
+
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(with(chunk("tEXt", 100))));
+  const auto decoder = makeFfmpegDecoder();
+  ASSERT_TRUE(decoder->open(source->streams()[0]));
+  ASSERT_TRUE(decoder->feed(*source->read().value()));
+  ASSERT_TRUE(decoder->drain());
+  const auto frame = decoder->receive().value();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(static_cast<const AVFrame*>(frame->owner.get())->metadata, nullptr);
 }
 
 TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {
