@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
+#include "drivers/ffmpeg/matroska_tags.h"
 #include "drivers/ffmpeg/pictures/png_texts.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/file_system_answer.h"
@@ -72,6 +73,7 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     return std::unexpected(file.error());
   }
   if (hasTooManyTexts(*file)) return fail(ErrorCode::Unsupported, kTooManyTexts);
+  if (hasTooManyTags(*file)) return fail(ErrorCode::Unsupported, kTooManyTags);
   auto local = std::make_unique<LocalFile>(std::move(*file), &watch);
   auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   AVIOContext* const context =

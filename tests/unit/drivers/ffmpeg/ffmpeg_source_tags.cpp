@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Films with more tags than any program writes: FFmpeg's time for them grows with the square of their number.
+#include "tests/support/files.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
+
+namespace relievo {
+namespace {
+
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+// RFC 8794: an id, a size of eight bytes, the data.
+std::string bigEndian(std::uint64_t number) {
+  std::string bytes;
+  for (int shift = 56; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift & 0xFF);
+  return bytes;
+}
+std::string element(const std::string& id, const std::string& data) {
+  return id + bigEndian(std::uint64_t{1} << 56 | data.size()) + data;
+}
+const std::string kTags = "\x12\x54\xC3\x67", kTag = "\x73\x73", kSimpleTag = "\x67\xC8", kName = "\x45\xA3",
+                  kString = "\x44\x87";
+
+std::string tags(int count) {
+  std::string all;
+  for (int i = 0; i < count; ++i)
+    all += element(kSimpleTag, element(kName, "K" + std::to_string(i)) + element(kString, "v"));
+  return element(kTags, element(kTag, all));
+}
+std::string seekTo(std::uint64_t place, const std::string& id) {
+  return element("\x11\x4D\x9B\x74",
+                 element("\x4D\xBB", element("\x53\xAB", id) + element("\x53\xAC", bigEndian(place))));
+}
+
+class FilmWithTags : public testing::Test {
+ protected:
+  FilmWithTags() { test::makeClip(path(), {ClipTrack{.codec = "libx264", .pix_fmt = "yuv420p", .frames = 2}}); }
+  [[nodiscard]] std::string path() const { return folder_ / "film.mkv"; }
+
+  // A copy of the film with elements before its first cluster and at its end.
+  std::string with(const std::string& before, const std::string& behind = "") {
+    const std::string whole = test::contentOf(path());
+    const std::size_t inside = segment(whole), cluster = whole.find("\x1F\x43\xB6\x75");
+    const std::string unknown = "\x01" + std::string(7, '\xFF');
+    writeFile(folder_ / "more.mkv", whole.substr(0, inside - unknown.size()) + unknown +
+                                        whole.substr(inside, cluster - inside) + before + whole.substr(cluster) +
+                                        behind);
+    return folder_ / "more.mkv";
+  }
+  // Where an element behind the film begins, in the film's own count, if `before` bytes are inserted.
+  [[nodiscard]] std::uint64_t endOf(std::size_t before) const {
+    const std::string whole = test::contentOf(path());
+    return whole.size() + before - segment(whole);
+  }
+
+ private:
+  static std::size_t segment(const std::string& whole) { return whole.find("\x18\x53\x80\x67") + 12; }
+  const TemporaryFolder folder_;
+};
+
+TEST_F(FilmWithTags, MoreThan5000OfMatroskaAreRefusedBeforeFFmpegReadsThem) {
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(with(tags(4990))));  // FFmpeg has written a few of its own
+  EXPECT_TRUE(source->tags().contains("K4989"));
+  const Error error = openErrorOf(with(tags(5001)));
+  EXPECT_EQ(error.code, ErrorCode::Unsupported);
+  EXPECT_THAT(error.message, HasSubstr("more than 5000 tags"));
+  EXPECT_EQ(openErrorOf(with(tags(2600) + tags(2600))).code, ErrorCode::Unsupported) << "in two parts";
+  EXPECT_EQ(openErrorOf(with(element(kTags, std::string(1100000, 'x')))).code, ErrorCode::Unsupported) << "over 1 MiB";
+}
+
+TEST_F(FilmWithTags, TheyAreCountedAtTheEndOfTheFileToo) {
+  const std::uint64_t end = endOf(seekTo(0, kTags).size());
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(with(seekTo(end, kTags), tags(100))));
+  ASSERT_TRUE(source->tags().contains("K99")) << "FFmpeg does not look there";
+  EXPECT_EQ(openErrorOf(with(seekTo(end, kTags), tags(5001))).code, ErrorCode::Unsupported);
+}
+
+}  // namespace
+}  // namespace relievo
