@@ -22,7 +22,6 @@
 namespace relievo::ffmpeg {
 namespace {
 
-constexpr std::int64_t kNoByte = 0;
 constexpr std::int64_t kAllBytes = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
 constexpr Error kNoParts{ErrorCode::NotFound, 0,
@@ -75,12 +74,6 @@ Result<Input::Opened> Input::open(const std::string& url) {
   open_file_ = std::exchange(context->io_open, openCounted);
   close_file_ = std::exchange(context->io_close2, closeAny);
   url_ = url;
-  opens_ = 0;
-  lost_ = 0;
-  beginElsewhere();
-  doubtful_ = false;
-  doubtful_until_ = kNoByte;
-  opened_ = false;
   AVIOContext* file = nullptr;
   if (const auto opened = openFile(*address, file); !opened) {
     avformat_free_context(context);
@@ -103,7 +96,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   if (lost_ > 0) tellLost(first_lost_);
 
   FormatPtr owned(context);
-  watch_.begin(kOpenPatience, late);
+  if (!reads_files_) watch_.begin(kOpenPatience, late);
   words.listenTo(*context);
   const int found = findStreams(*context);
   const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // a slow stream may be known enough

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens an address as a container of FFmpeg's: what it may open is bounded, and every wait is interruptible.
+// Opens an address as a container of FFmpeg's, once: what it may open is bounded, and every wait is interruptible.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +18,24 @@ extern "C" {
 
 namespace relievo::ffmpeg {
 
+class Input;
+
 struct FormatCloser {
+  std::shared_ptr<Input> input;  // of the container, which outlives it
   void operator()(AVFormatContext* context) const noexcept;
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;
 
 class Input {
  public:
-  // `watch` must outlive it, and it must outlive its containers.
-  explicit Input(Watch& watch) noexcept : watch_(watch) {}
-
   struct Opened {
     FormatPtr container;  // its streams have been found
     Address address;
     MonotonicTime arrival;
   };
-  // A container that was opened before stays open.
   [[nodiscard]] Result<Opened> open(const std::string& url);
+  // Of `open` and of all that reads the container.
+  [[nodiscard]] Watch& watch() noexcept { return watch_; }
   // Call before each read. Resets the number of files and addresses that the container may still open.
   void beginReading() noexcept { opens_ = 0; }
   // Call for a seek: what was lost before it leaves no gap behind it.
@@ -67,7 +68,7 @@ class Input {
   [[nodiscard]] bool isUnsure(std::int64_t place) const noexcept;
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
-  Watch& watch_;
+  Watch watch_;
   decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
   decltype(AVFormatContext::io_close2) close_file_ = nullptr;
   std::string url_;

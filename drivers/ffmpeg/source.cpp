@@ -14,8 +14,8 @@
 #include "drivers/ffmpeg/container.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/file_times.h"
-#include "drivers/ffmpeg/input.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/opening.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
@@ -49,7 +49,7 @@ class FfmpegSource final : public MediaSource {
 
  private:
   Result<Description> openSource(const std::string& url) override {
-    watch_.forgive();
+    opener_.forgive();
     url_ = url;
     if (const auto opened = openContext(); !opened) return std::unexpected(opened.error());
     return describe();
@@ -57,7 +57,7 @@ class FfmpegSource final : public MediaSource {
 
   // If it fails, the previously open context stays open.
   Result<void> openContext() {
-    auto opened = input_.open(url_);
+    auto opened = opener_.open(url_);
     if (!opened) return std::unexpected(opened.error());
     AVFormatContext& context = *opened->container;
     arrival_ = opened->arrival;
@@ -84,7 +84,7 @@ class FfmpegSource final : public MediaSource {
     std::optional<MediaTime> begin;
     while (!wanted.empty() && ahead_.size() < kTagPackets) {
       PacketPtr packet(av_packet_alloc());
-      if (!packet || input_.readFrame(*context_, *packet) < 0) return;  // `readPacket` gets the error again
+      if (!packet || opener_.input().readFrame(*context_, *packet) < 0) return;  // `readPacket` gets the error again
       const auto found = wanted.find(packet->stream_index);
       if (found != wanted.end() && (packet->flags & AV_PKT_FLAG_KEY) != 0) {
         stream_tags_[found->first] = streamTags(*packet, *found->second->codecpar);
@@ -128,22 +128,22 @@ class FfmpegSource final : public MediaSource {
   }
 
   Result<std::optional<Packet>> readPacket() override {
-    watch_.begin(address_.flows() ? kFlowPatience : kReadPatience, lateReading(address_.way));
-    input_.beginReading();
+    watch().begin(address_.flows() ? kFlowPatience : kReadPatience, lateReading(address_.way));
+    opener_.input().beginReading();
     PacketPtr packet(av_packet_alloc());
     if (!packet) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
     int damaged_reads = 0;
     for (;;) {
-      if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
+      if (watch().cancelled()) return std::unexpected(watch().explain({}));
       const int got = readNext(packet);
       if (got >= 0 && context_->pb != nullptr) context_->pb->error = 0;  // recovered
       if (got >= 0 && isWanted(*packet)) return packetOf(std::move(packet));
       if (got >= 0) {
         av_packet_unref(packet.get());
-      } else if (got == AVERROR(EAGAIN) && !watch_.givesUp()) {
+      } else if (got == AVERROR(EAGAIN) && !watch().givesUp()) {
         std::this_thread::sleep_for(kNap);
       } else if (got != AVERROR_INVALIDDATA || ++damaged_reads >= kDamagedReads) {
-        if (timed_) end_.reach(*context_, input_.isDoubtful());
+        if (timed_) end_.reach(*context_, opener_.input().isDoubtful());
         return endOrError(got);
       }
     }
@@ -151,7 +151,7 @@ class FfmpegSource final : public MediaSource {
 
   // Returns FFmpeg's code, like av_read_frame.
   int readNext(PacketPtr& packet) {
-    if (ahead_.empty()) return input_.readFrame(*context_, *packet);
+    if (ahead_.empty()) return opener_.input().readFrame(*context_, *packet);
     packet = std::move(ahead_.front());
     ahead_.pop_front();
     return 0;
@@ -180,8 +180,8 @@ class FfmpegSource final : public MediaSource {
     const bool endless = address_.flows() && context_->duration <= 0;
     if (io_error == 0 && !endless && (code == AVERROR_EOF || code == AVERROR_INVALIDDATA)) return std::nullopt;
     if (code == AVERROR(ENOMEM)) return fail(ErrorCode::Exhausted, "out of memory for a packet", ENOMEM);
-    return std::unexpected(watch_.explain({ErrorCode::Lost, osError(io_error != 0 ? io_error : code),
-                                           "the source went away during playback; check disk or network"}));
+    return std::unexpected(watch().explain({ErrorCode::Lost, osError(io_error != 0 ? io_error : code),
+                                            "the source went away during playback; check disk or network"}));
   }
 
   std::optional<Packet> packetOf(PacketPtr packet) {
@@ -210,7 +210,7 @@ class FfmpegSource final : public MediaSource {
     const Duration length = is_subtitle ? stated : lengths_.of(out, stated);
     end_.note(out, length, (packet.flags & AV_PKT_FLAG_CORRUPT) != 0, packet.pos);
     if (address_.flows() || is_subtitle) return;
-    gaps_.note(out, length, input_.doubtOf(packet, stream), input_.losses(), url_);
+    gaps_.note(out, length, opener_.input().doubtOf(packet, stream), opener_.input().losses(), url_);
   }
 
   void beginTimes() noexcept {
@@ -226,10 +226,10 @@ class FfmpegSource final : public MediaSource {
   }
 
   Result<void> seekTo(MediaTime target) override {
-    if (watch_.cancelled()) return std::unexpected(watch_.explain({}));
-    if (input_.isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
+    if (watch().cancelled()) return std::unexpected(watch().explain({}));
+    if (opener_.input().isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
-    watch_.begin(kReadPatience, lateReading(address_.way));
+    watch().begin(kReadPatience, lateReading(address_.way));
     const bool onwards = target > MediaTime{};
     int sought = !onwards && seeksByBytes() ? av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) : AVERROR(ENOSYS);
     // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
@@ -237,9 +237,9 @@ class FfmpegSource final : public MediaSource {
     const MediaTime last_second(std::max(Duration(0), duration() - std::chrono::seconds(1)));
     if (sought < 0) sought = seekToKeyframe(stream, target);
     if (sought < 0) sought = seekToKeyframe(stream, std::min(target, last_second));  // failed: too near the end
-    if (sought < 0) return std::unexpected(watch_.explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
+    if (sought < 0) return std::unexpected(watch().explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
     beginTimes();
-    input_.beginElsewhere();
+    opener_.input().beginElsewhere();
     ahead_.clear();
     end_.seek(target);
     sought_ = onwards;
@@ -261,16 +261,16 @@ class FfmpegSource final : public MediaSource {
   void closeSource() noexcept override {
     ahead_.clear();
     context_.reset();
-    input_.closePipe();
+    opener_.input().closePipe();
   }
 
-  void interrupted() noexcept override { watch_.cancel(); }
+  void interrupted() noexcept override { opener_.interrupt(); }
+  [[nodiscard]] Watch& watch() const noexcept { return opener_.input().watch(); }
 
-  Watch watch_;
   std::string url_;
   Address address_;
   MonotonicTime arrival_;
-  Input input_{watch_};
+  Opener opener_;
   FormatPtr context_;
   bool timed_ = true;
   Duration start_{0};    // the container's start time

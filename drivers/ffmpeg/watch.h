@@ -11,6 +11,8 @@
 
 namespace relievo::ffmpeg {
 
+inline constexpr Error kInterruptedWait{ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
+
 class Watch {
  public:
   // Starts a call that may wait for `patience`, after which it fails with `late`.
@@ -20,11 +22,11 @@ class Watch {
     unanswered_.reset();
     deadline_ = clock_.now() + patience;
   }
-  void forgive() noexcept { cancelled_ = false; }
   void cancel() noexcept { cancelled_ = true; }
 
   [[nodiscard]] MonotonicTime now() const noexcept { return clock_.now(); }
   [[nodiscard]] bool cancelled() const noexcept { return cancelled_; }
+  [[nodiscard]] const std::atomic<bool>& cancelFlag() const noexcept { return cancelled_; }
   [[nodiscard]] bool givesUp() noexcept {
     if (clock_.now() >= deadline_.load()) expired_ = true;
     return cancelled_ || expired_;
@@ -36,7 +38,7 @@ class Watch {
 
   // The error of a failed call: cancelled, unanswered or timed out if so, else `otherwise`.
   [[nodiscard]] Error explain(Error otherwise) const noexcept {
-    if (cancelled_) return {ErrorCode::Cancelled, 0, "interrupted while waiting for the source"};
+    if (cancelled_) return kInterruptedWait;
     if (unanswered_) return *unanswered_;
     if (expired_) return late_;
     return otherwise;

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Films with more tags than any program writes: FFmpeg's time for them grows with the square of their number.
+#include <sys/resource.h>
+
+#include <thread>
+
 #include "tests/support/files.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
@@ -75,6 +79,40 @@ TEST_F(FilmWithTags, TheyAreCountedAtTheEndOfTheFileToo) {
   ASSERT_TRUE(source->open(with(seekTo(end, kTags), tags(100))));
   ASSERT_TRUE(source->tags().contains("K99")) << "FFmpeg does not look there";
   EXPECT_EQ(openErrorOf(with(seekTo(end, kTags), tags(5001))).code, ErrorCode::Unsupported);
+}
+
+// Threads that compute, this one among them.
+int computing() {
+  int count = 0;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+    count += test::contentOf(task.path() / "stat").find(") R ") != std::string::npos ? 1 : 0;
+  return count;
+}
+double processorSeconds() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
+}
+
+// Tags behind more elements than are looked at: FFmpeg takes seconds for them, in which it does not ask whether to go
+// on.
+TEST_F(FilmWithTags, InterruptEndsAnOpeningWhichFFmpegDoesNotEnd) {
+  std::string empty;
+  for (int i = 0; i < 1001; ++i) empty += "\xEC\x80";
+  const std::string film = with(empty + tags(15000));
+  const auto source = makeFfmpegSource();
+  std::thread other([&, began = processorSeconds()] {
+    while (processorSeconds() < began + 0.5) std::this_thread::yield();  // it has begun
+    source->interrupt();
+  });
+  const auto opened = source->open(film);
+  other.join();
+  const int at_work = computing();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Cancelled);
+  EXPECT_EQ(at_work, 2) << "FFmpeg has ended: it has to take longer";
+  EXPECT_TRUE(source->open(path())) << "the next film is not held up";
+  while (computing() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 }  // namespace

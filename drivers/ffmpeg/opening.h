@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens inputs on threads of their own, which are left behind if they do not end in time.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "drivers/ffmpeg/input.h"
+#include "platform/error.h"
+
+namespace relievo::ffmpeg {
+
+// FFmpeg looks at a file with a million tags, or for the name of a server, for minutes in which nothing can interrupt
+// it. So each input is opened apart: `open` fails at the latest a moment after its time-out or an interrupt, and the
+// thread ends by itself. All calls on one thread, except `interrupt`.
+class Opener {
+ public:
+  // Lets go of the input, and of an interrupt. Its container must be closed.
+  void forgive();
+  // What CancelsAnswers of the calling thread has interrupts it, too. If it fails, the input stays as it was.
+  [[nodiscard]] Result<Input::Opened> open(const std::string& url);
+  // Of the container that was opened last, which keeps it.
+  [[nodiscard]] Input& input() const noexcept { return *input_; }
+  // Ends `open`, or whatever reads the container. Any thread.
+  void interrupt() noexcept;
+
+ private:
+  void watch(const std::shared_ptr<Input>& input) noexcept;
+
+  std::shared_ptr<Input> input_ = std::make_shared<Input>();
+  std::mutex mutex_;
+  std::shared_ptr<Input> watched_ = input_;  // guarded by the mutex; what `interrupt` ends
+};
+
+}  // namespace relievo::ffmpeg
