@@ -4,8 +4,10 @@
 #include <fcntl.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -24,6 +26,11 @@ namespace {
 
 constexpr std::int64_t kAllBytes = std::numeric_limits<std::int64_t>::max();
 constexpr int kMostOpens = 200;  // files and addresses that a container opens at once
+constexpr Error kIndexBehind{
+    ErrorCode::Unsupported, 0,
+    "its index is at its end, and a pipe, or a server that gives only whole files, cannot go back to its pictures; "
+    "save "
+    "it to a file, or write it with its index first: ffmpeg -i FILE -map 0 -c copy -movflags +faststart film.mp4"};
 constexpr Error kNoParts{ErrorCode::NotFound, 0,
                          "it is a list, and none of its parts can be opened; get them, or the whole film in one file"};
 
@@ -36,6 +43,18 @@ int findStreams(AVFormatContext& context) {
   const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
   for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);
   return found;
+}
+
+// Whether the pictures of an MP4 or QuickTime film that cannot be sought lie before all that is still held of it.
+bool hasPassedPictures(const AVFormatContext& context) {
+  AVIOContext* const in = context.pb;
+  if (in == nullptr || (in->seekable & AVIO_SEEKABLE_NORMAL) != 0) return false;
+  if (!std::string_view(context.iformat->name).starts_with("mov")) return false;
+  const std::int64_t held = avio_tell(in) - (in->buf_ptr - in->buffer);
+  return std::ranges::any_of(std::span(context.streams, context.nb_streams), [held](AVStream* stream) {
+    const AVIndexEntry* const first = avformat_index_get_entry(stream, 0);
+    return first != nullptr && first->pos < held;
+  });
 }
 
 // A list that another list names is no part of the film.
@@ -96,6 +115,7 @@ Result<Input::Opened> Input::open(const std::string& url) {
   if (lost_ > 0) tellLost(first_lost_);
 
   FormatPtr owned(context);
+  if (hasPassedPictures(*owned)) return std::unexpected(kIndexBehind);
   if (!reads_files_) watch_.begin(kOpenPatience, late);
   words.listenTo(*context);
   const int found = findStreams(*context);

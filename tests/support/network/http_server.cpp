@@ -63,7 +63,7 @@ void HttpServer::answer(UniqueFd to) {
   const std::string file = head.substr(slash + 1, end - slash - 1);
   const auto content = contentOf(folder_ + "/" + file);
   const std::size_t range = head.find("Range: bytes=");
-  const std::size_t from = range == head.npos ? 0 : std::stoul(head.substr(range + 13));
+  const std::size_t from = range == head.npos || !ranges ? 0 : std::stoul(head.substr(range + 13));
   const char* status = !content || from > content->size() ? "404" : from > 0 ? "206" : "200";
   {
     const std::scoped_lock lock(mutex_);
@@ -74,7 +74,8 @@ void HttpServer::answer(UniqueFd to) {
     sendAll(to, std::string("HTTP/1.1 ") + status + " No\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
     return;
   }
-  std::string answer_head = std::string("HTTP/1.1 ") + status + " OK\r\nAccept-Ranges: bytes\r\nConnection: close\r\n";
+  std::string answer_head = std::string("HTTP/1.1 ") + status + " OK\r\nConnection: close\r\n";
+  if (ranges) answer_head += "Accept-Ranges: bytes\r\n";
   answer_head += "Content-Length: " + std::to_string(content->size() - from) + "\r\n";
   if (from > 0) {
     answer_head += "Content-Range: bytes " + std::to_string(from) + "-" + std::to_string(content->size() - 1) + "/" +

@@ -29,6 +29,7 @@ class HttpServer {
   // Set these before the first request.
   std::map<std::string, Fault> faults;  // by file
   std::map<std::string, int> busy;      // by file: how often the answer is 503
+  bool ranges = true;                   // false: whole files only
   double bytes_per_s = 0;               // 0: as fast as it goes
 
   [[nodiscard]] std::string url(const std::string& file) const;

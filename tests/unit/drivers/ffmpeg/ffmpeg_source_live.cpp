@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream in real time that is joined in its middle.
+// Sources that cannot go back: a stream in real time that is joined in its middle, pipes, servers of whole files.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include "tests/support/files.h"
+#include "tests/support/network/http_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
 namespace {
 
+using test::makeClip;
 using test::TemporaryFolder;
 
 // Two tracks of 60 pictures a second and sound: between two key frames, which alone carry the tags, are 160 packets.
@@ -44,6 +49,37 @@ TEST(FfmpegSource, AStreamThatIsJoinedBehindAKeyFrameHasItsTags) {
   EXPECT_EQ(tagged, 2);
   source->close();
   sender.join();
+}
+
+std::size_t packetsOf(const std::string& url) {
+  const auto source = makeFfmpegSource();
+  const auto opened = source->open(url);
+  EXPECT_TRUE(opened) << url;
+  return opened ? readAll(*source).size() : 0;
+}
+
+// FFmpeg has read past the pictures when it comes to the index, and the source seemed to have gone away.
+TEST(FfmpegSource, AnIndexBehindThePicturesIsToldWhereNothingCanGoBack) {
+  TemporaryFolder folder;
+  const ClipTrack large{.codec = "mjpeg", .pix_fmt = "yuvj420p", .width = 320, .height = 240, .frames = 30};
+  makeClip(folder / "large.mp4", {large});
+  makeClip(folder / "large.mkv", {large});
+  makeClip(folder / "small.mp4", {ClipTrack{.codec = "mjpeg", .pix_fmt = "yuvj420p", .frames = 2}});
+  ASSERT_GT(std::filesystem::file_size(folder / "large.mp4"), 60000u);
+  test::HttpServer server(folder / "");
+  EXPECT_EQ(packetsOf(server.url("large.mp4")), 30u);
+  server.ranges = false;
+  const Error refused = openErrorOf(server.url("large.mp4"));
+  EXPECT_EQ(refused.code, ErrorCode::Unsupported);
+  EXPECT_THAT(refused.message, testing::HasSubstr("its index is at its end"));
+  EXPECT_EQ(packetsOf(server.url("large.mkv")), 30u);
+  EXPECT_EQ(packetsOf(server.url("small.mp4")), 2u) << "all of it is still held";
+
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << test::contentOf(folder / "large.mp4"); });
+  EXPECT_THAT(openErrorOf(pipe).message, testing::HasSubstr("its index is at its end"));
+  writer.join();
 }
 
 }  // namespace
