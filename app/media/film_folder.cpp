@@ -111,15 +111,26 @@ std::vector<std::string> picturesOf(const fs::path& folder) {
   return pictures;
 }
 
-// The only array among the pictures of `folder`; empty if it is the depth of one of the pictures `beside`.
+// Arrays of cameras, not of pictures: "poses_bounds.npy", "intrinsics.npy", "K.npy".
+bool isOfCameras(const std::string& name) {
+  const std::string stem = lowerCase(stemOf(name));
+  static constexpr std::array<std::string_view, 9> kParts{"pose",      "intrinsic", "extrinsic", "cameras", "bounds",
+                                                          "timestamp", "calib",     "c2w",       "w2c"};
+  const auto isIn = [&](std::string_view part) { return stem.find(part) != stem.npos; };
+  return !saysDepth(name) && (stem == "k" || stem == "cam" || stem == "cams" || std::ranges::any_of(kParts, isIn));
+}
+
+// The only array among the pictures of `folder`; empty if it is the depth of one of the pictures `beside`, or if one of
+// them says that it is depth and the array does not.
 std::string arrayAmong(const std::vector<std::string>& pictures, const fs::path& folder,
                        const std::vector<std::string>& beside) {
-  const auto isArray = [](const std::string& name) { return endingOf(name) == "npy"; };
+  const auto isArray = [](const std::string& name) { return endingOf(name) == "npy" && !isOfCameras(name); };
   const auto array = std::ranges::find_if(pictures, isArray);
   if (std::ranges::count_if(pictures, isArray) != 1) return "";
   const bool of_one = std::ranges::any_of(beside, [&](const std::string& name) {
     return name != *array &&
-           (lowerCase(stemOf(name)) == lowerCase(stemOf(*array)) || !depthOf(name, byStem({*array})).empty());
+           ((saysDepth(name) && !saysDepth(*array)) || lowerCase(stemOf(name)) == lowerCase(stemOf(*array)) ||
+            !depthOf(name, byStem({*array})).empty());
   });
   return of_one ? "" : (folder / *array).string();
 }

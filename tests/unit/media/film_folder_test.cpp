@@ -146,6 +146,31 @@ TEST_F(FilmFolder, AnArrayIsTheDepthOfTheFilmOrThePicturesBesideIt) {
   EXPECT_FALSE(filmOverDepth(folder_ / "c")) << "of one picture alone";
 }
 
+TEST_F(FilmFolder, AnArrayOfCamerasIsNotTheDepthOfThePicturesBesideIt) {
+  const auto place = [&](const std::string& name) {
+    std::filesystem::create_directory(folder_ / name);
+    for (const char* const picture : {"f1.png", "f2.png"}) files({name + "/" + picture});
+    return folder_ / name;
+  };
+  int count = 0;
+  for (const char* const array : {"poses_bounds", "intrinsics", "K", "camera_poses", "timestamps", "c2w"}) {
+    const std::string name = std::to_string(count++);
+    place(name);
+    files({name + "/" + array + ".npy"});
+    EXPECT_FALSE(filmOverDepth(folder_ / name)) << array;
+    files({name + "/depths.npy"});
+    const auto found = filmOverDepth(folder_ / name);
+    ASSERT_TRUE(found) << array;
+    EXPECT_EQ(found->depth, folder_ / (name + "/depths.npy")) << "the other is no picture";
+  }
+  std::filesystem::create_directories(folder_ / "llff/images");
+  files({"llff/images/1.png", "llff/images/2.png", "llff/poses_bounds.npy"});
+  EXPECT_FALSE(filmOverDepth(folder_ / "llff"));
+  place("u");
+  files({"u/depth.png", "u/more.npy"});
+  EXPECT_FALSE(filmOverDepth(folder_ / "u")) << "a picture says that it is the depth";
+}
+
 TEST(FilmNames, SayDepthByTheWord) {
   for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm"}) EXPECT_TRUE(saysDepth(name)) << name;
   for (const char* name : {"clip.mp4", "depth/1.png", "depths.mkv", "outdepth.mkv"})
