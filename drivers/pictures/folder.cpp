@@ -72,8 +72,7 @@ Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
 
 // Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
 void sortByRole(const std::string& folder, const std::vector<std::string>& names, FoundPictures& found) {
-  std::map<Role, std::vector<std::string>> by_role;
-  for (const std::string& name : names) by_role[roleOf(name)].push_back(name);
+  auto by_role = byRole(names);
   auto& depth = by_role[Role::Depth];
   if (depth.empty()) {
     std::vector<std::string> color = names;
@@ -83,6 +82,7 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   }
   auto& color = by_role[Role::Color].empty() ? by_role[Role::Unsaid] : by_role[Role::Color];
   keepLeftView(depth), keepLeftView(color);
+  if (auto views = viewsAmong(color); views && color.size() == 2 * depth.size()) color = std::move(views->left);
   found.left_out += names.size() - depth.size() - color.size();
   found.depth = {folder, chosen(depth, Role::Depth, found.left_out)};
   found.color = {folder, oneKind(color, Role::Color, found.left_out)};

@@ -70,6 +70,23 @@ std::string digitsOf(std::string_view name) {
   return digits;
 }
 
+// The names by what is said behind their first `common` letters.
+std::map<Role, std::vector<std::string>> byRoleBehind(std::size_t common, const std::vector<std::string>& names) {
+  std::map<Role, std::vector<std::string>> by_role;
+  for (const std::string& name : names) by_role[roleOf(name.substr(common))].push_back(name);
+  return by_role;
+}
+
+// Where the words end that all names begin with.
+std::size_t endOfCommonWords(const std::vector<std::string>& names) {
+  std::string_view common = names.front();
+  for (const std::string& name : names) {
+    const auto same = std::ranges::mismatch(common, name).in1;
+    common = common.substr(0, static_cast<std::size_t>(same - common.begin()));
+  }
+  return common.find_last_of("_-. ") + 1;  // 0 for none
+}
+
 // Whether a picture or a folder of this name is to be preferred to the other.
 bool isBetter(const std::string& a, const std::string& b) {
   const auto words_a = wordsOf(a), words_b = wordsOf(b);
@@ -91,6 +108,13 @@ Role roleOf(std::string_view name) {
   const char letter = matterportLetter(name);
   if (holdsOne(words, kDepth) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
   return holdsOne(words, kColor) || beginsWith(name, 'r') || letter == 'i' ? Role::Color : Role::Unsaid;
+}
+
+std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& names) {
+  auto by_role = byRoleBehind(0, names);
+  if (names.empty() || by_role[Role::Depth].size() < names.size()) return by_role;
+  auto apart = byRoleBehind(endOfCommonWords(names), names);
+  return apart[Role::Color].empty() || apart[Role::Depth].empty() ? by_role : apart;
 }
 
 std::string keyOf(std::string_view name) {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,10 @@ enum class Role : std::uint8_t {
 
 // By the words in `name`, which anything but letters parts; "d-12.pgm" and "r-12.ppm" are depth and colour.
 [[nodiscard]] Role roleOf(std::string_view name);
+
+// The names by their roles. Where all of them say depth, as "depth_guess_rgb.jpg" and "depth_guess_depth.jpg", only the
+// words tell that not all begin with, if some of these say colour and some depth.
+[[nodiscard]] std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& names);
 
 // What the names of colour and depth of one picture share: "cat" of "cat-image.jpg" and "cat-depth.png". Without the
 // ending, the words of colour and depth, and what separates the others.

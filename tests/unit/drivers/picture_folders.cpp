@@ -77,6 +77,11 @@ TEST(PictureRecordings, DepthAloneMayHaveWordsAsItsNames) {
   EXPECT_EQ(recording.depth[1].path, "w/hall.png");
 }
 
+TEST_F(Pictures, DepthAloneMayHaveWordsAsItsNames) {
+  file("w/depth/beach.png"), file("w/depth/hall.png");
+  EXPECT_THAT(read(folder_ / "w").color, ElementsAre("0 w/depth/beach.png", "33.3333 w/depth/hall.png"));
+}
+
 TEST_F(Pictures, AKnownLayoutHasItsRateFromWithin) {
   for (const char* const name : {"000000", "000001"}) file("k/image_2/" + std::string(name) + ".png");
   const std::filesystem::path before = std::filesystem::current_path();

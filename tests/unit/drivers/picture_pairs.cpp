@@ -265,6 +265,22 @@ TEST_F(Pictures, KittisSelectionIsPhotosWithTheirUnit) {
   EXPECT_EQ(film.streams.back().tags.at("DEPTH_UNIT"), "3.90625");
 }
 
+TEST_F(Pictures, WordsThatAllNamesBeginWithTellNothing) {
+  file("p/depth_guess_rgb.jpg"), file("p/depth_guess_depth.jpg");
+  EXPECT_THAT(read(folder_ / "p").color, ElementsAre("0 p/depth_guess_rgb.jpg"));
+  EXPECT_THAT(read(folder_ / "p").depth, ElementsAre("0 p/depth_guess_depth.jpg"));
+  file("d/depth_1.png"), file("d/depth_color_1.png");
+  EXPECT_THAT(read(folder_ / "d").color, ElementsAre("0 d/depth_1.png")) << "the other is painted";
+}
+
+TEST_F(Pictures, DepthOfTwoViewsIsThatOfTheLeftOne) {
+  file("a/aloe-L.png"), file("a/aloe-R.png"), file("a/aloe-disp.png");
+  EXPECT_THAT(read(folder_ / "a").color, ElementsAre("0 a/aloe-L.png"));
+  EXPECT_THAT(read(folder_ / "a").depth, ElementsAre("0 a/aloe-disp.png"));
+  file("b/1_l.png"), file("b/1_r.png"), file("b/1_l_depth.png"), file("b/1_r_depth.png");
+  EXPECT_EQ(read(folder_ / "b").color.size(), 2U) << "each view has its own";
+}
+
 TEST_F(Pictures, DepthThatIsNoPictureIsToldBesideColour) {
   file("r/rgbd/0.jpg"), file("r/rgbd/0.depth"), file("n/0.jpg"), file("n/0.npz");
   EXPECT_THAT(read(folder_ / "r/rgbd").notes, Contains(HasSubstr("LZFSE")));
