@@ -12,6 +12,7 @@ namespace relievo {
 namespace {
 
 constexpr std::uint16_t kHole = 0;
+constexpr std::uint32_t kBands = 32;  // a band: 8 of 256 codes; at crf 8 nearly all codes move by less, at crf 23 most
 
 // The normalised code, near high, that gives the same height under the other law.
 double inLaw(double s, const DepthCalibration& from, const DepthCalibration& to) {
@@ -32,6 +33,11 @@ const char* nameOf(DepthLaw law) {
 
 DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding)
     : source_(source), outcome_(recoded(source, coding.bits, coding.law)) {
+  if (!outcome_.invalid.empty() && !coding.isLossless()) {
+    const std::uint32_t all = 1U << coding.bits, band = all / kBands;
+    outcome_.invalid = CodeSet(CodeSet::Range{kHole, band - 1});
+    outcome_.codes = {2 * band, all - 1};
+  }
   counts_.bits = coding.bits;
   counts_.of_code.assign(std::size_t{1} << coding.bits, 0);
   if (source.code != DepthCode::Luma) return;
@@ -51,8 +57,9 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
 // Rounds halves up, also quotients that should be halves but come out slightly below.
 std::uint16_t DepthCoder::codeOf(double s) const noexcept {
   constexpr double kRounding = 1e-9;
-  const long code = std::lround(s * outcome_.highCode() * (1 + kRounding));
-  const long lowest = !outcome_.invalid.empty() ? kHole + 1 : 0;
+  const double low = outcome_.lowCode(), high = outcome_.highCode();
+  const long code = std::lround((low + s * (high - low)) * (1 + kRounding));
+  const long lowest = std::max(std::lround(low), outcome_.invalid.empty() ? 0L : kHole + 1L);
   return static_cast<std::uint16_t>(std::clamp(code, lowest, static_cast<long>(outcome_.highCode())));
 }
 
@@ -113,7 +120,12 @@ std::vector<std::string> DepthCoder::explain() const {
         print("%s steps converted to %s ones; heights are unchanged", nameOf(source_.law), nameOf(outcome_.law)));
   }
   if (source_.polarity == DepthPolarity::NearIsLow) lines.emplace_back("polarity inverted: near was low, is now high");
-  if (!outcome_.invalid.empty()) lines.emplace_back("code 0 is reserved for holes; valid codes begin at 1");
+  if (outcome_.codes) {
+    lines.push_back(print("codes 0 .. %u are holes; valid codes begin at %.0f, because coding moves codes",
+                          outcome_.invalid.highest(), outcome_.lowCode()));
+  } else if (!outcome_.invalid.empty()) {
+    lines.emplace_back("code 0 is reserved for holes; valid codes begin at 1");
+  }
   return lines;
 }
 

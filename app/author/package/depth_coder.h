@@ -17,7 +17,8 @@ namespace relievo {
 // The normalised code s (see DepthCalibration), near high, becomes round((2^bits - 1) s): codes of the same bits, full
 // range and near high are unchanged. If the law is to change, s is first replaced by that of the same height under the
 // new law. If the source may have holes, code 0 is reserved for them (`invalid` of the outcome) and every other code is
-// at least 1.
+// at least 1. A lossy codec moves codes by a few: then the 32nd part of the codes at the lower end are holes, and depth
+// begins as far above them (`codes` of the outcome).
 class DepthCoder {
  public:
   explicit DepthCoder(const DepthCalibration& source, const DepthCoding& coding = {});

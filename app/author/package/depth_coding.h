@@ -19,6 +19,8 @@ struct DepthCoding {
   // (linear), or near the viewer (inverse, with the source's near and far).
   std::optional<DepthLaw> law;
   int crf = 8;  // 0: lossless
+
+  [[nodiscard]] bool isLossless() const noexcept { return codec == VideoCodec::Ffv1 || crf == 0; }
 };
 
 }  // namespace relievo

@@ -13,12 +13,14 @@ namespace {
 
 using Codes = std::vector<int>;
 
+constexpr DepthCoding kLossless{.crf = 0};
+
 Frame grayRow(const Codes& codes, int bits) {
   return test::makeGrayFrame(static_cast<int>(codes.size()), 1, bits, MediaTime{},
                              [&](int c, int) { return codes[static_cast<std::size_t>(c)]; });
 }
 
-Codes coded(const Frame& frame, const DepthCalibration& calibration, const DepthCoding& coding = {}) {
+Codes coded(const Frame& frame, const DepthCalibration& calibration, const DepthCoding& coding = kLossless) {
   DepthCoder coder(calibration, coding);
   DepthPicture picture;
   EXPECT_TRUE(coder.encode(frame, picture).has_value());
@@ -72,7 +74,7 @@ TEST(AuthorDepthCoder, GivesHolesACodeOfTheirOwn) {
   const DepthCalibration source{.bits = 16, .invalid = 0};
   EXPECT_EQ(coded(grayRow({0, 1, 128, 386, 65535}, 16), source), (Codes{0, 1, 1, 2, 255}));
 
-  DepthCoder coder(source);
+  DepthCoder coder(source, kLossless);
   DepthPicture picture;
   ASSERT_TRUE(coder.encode(grayRow({0, 0, 1, 65535}, 16), picture).has_value());
   EXPECT_EQ(coder.outcome().invalid, CodeSet(0));
@@ -82,6 +84,19 @@ TEST(AuthorDepthCoder, GivesHolesACodeOfTheirOwn) {
   EXPECT_EQ(coder.counts().of_code[0], 0u);
   EXPECT_EQ(coder.counts().of_code[1], 1u);
   EXPECT_EQ(coder.counts().of_code[255], 1u);
+}
+
+// 8 of 256 codes are holes, and depth begins at 16: 16 + 239 s. A code that a codec has moved by 7 still means the
+// same.
+TEST(AuthorDepthCoder, KeepsHolesApartFromDepthWhereTheCodecMovesCodes) {
+  const DepthCalibration source{.bits = 16, .invalid = 0};
+  const DepthCoding lossy{.crf = 8};
+  EXPECT_EQ(coded(grayRow({0, 1, 13107, 32768, 65535}, 16), source, lossy), (Codes{0, 16, 64, 136, 255}));
+  const DepthCalibration outcome = DepthCoder(source, lossy).outcome();
+  EXPECT_EQ(outcome.invalid.text(), "0-7");
+  EXPECT_EQ(outcome.codes, (CodeSet::Range{16, 255}));
+  EXPECT_EQ(DepthCoder(source, {.bits = 10, .crf = 8}).outcome().codes, (CodeSet::Range{64, 1023}));
+  EXPECT_FALSE(DepthCoder({.bits = 16}, lossy).outcome().codes) << "no holes";
 }
 
 TEST(AuthorDepthCoder, MovesAHoleFromAnyCodeToZero) {
@@ -122,12 +137,12 @@ TEST(AuthorDepthCoder, DecodesHueToLuma) {
   const double expected[] = {255, 212.5, 170, 127.5, 85, 42.5, 233.7};
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(codes[i], expected[i], 0.5 + 1e-9) << i;
   EXPECT_EQ(codes[7], 0);
-  EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}).outcome().invalid, CodeSet(0));
+  EXPECT_EQ(DepthCoder({.code = DepthCode::Hue}, kLossless).outcome().invalid, CodeSet(0));
 }
 
 // 65535 to 4095: 16.004 codes to one; 8 -> 0.4999, 9 -> 0.56, 32768 -> 2047.53. 10 to 12 bits: 4095/1023 = 4.003.
 TEST(AuthorDepthCoder, KeepsAsManyBitsAsAreAskedFor) {
-  const DepthCoding twelve{.codec = VideoCodec::Hevc, .bits = 12};
+  const DepthCoding twelve{.codec = VideoCodec::Hevc, .bits = 12, .crf = 0};
   EXPECT_EQ(coded(grayRow({0, 8, 9, 32768, 65535}, 16), {.bits = 16}, twelve), (Codes{0, 0, 1, 2048, 4095}));
   EXPECT_EQ(coded(grayRow({0, 1, 512, 1023}, 10), {.bits = 10}, twelve), (Codes{0, 4, 2050, 4095}));
   const DepthCoding sixteen{.codec = VideoCodec::Ffv1, .bits = 16};
@@ -160,7 +175,7 @@ TEST(AuthorDepthCoder, ChangesTheLawAndKeepsTheHeights) {
 TEST(AuthorDepthCoder, SaysWhatItDid) {
   const auto said = [](const DepthCalibration& c) {
     std::string all;
-    for (const std::string& line : DepthCoder(c).explain()) all += line + "\n";
+    for (const std::string& line : DepthCoder(c, kLossless).explain()) all += line + "\n";
     return all;
   };
   EXPECT_NE(said({.bits = 16}).find("16 bits rescaled to 8 bits: codes 0 .. 65535"), std::string::npos);
