@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/author/material/painting.h"
+#include "app/author/package/depth_check.h"
 #include "app/author/package/depth_coder.h"
 #include "app/author/package/film_writer.h"
 #include "app/author/sample/sample_scene.h"
@@ -51,6 +52,7 @@ struct AuthorSummary {
   std::vector<std::string> kept;          // sound, subtitles, chapters; see KeptTracks
   std::string read_as;                    // what the source's depth means, for a person; empty for the sample film
   std::vector<std::string> read_because;  // why, and what else it may be
+  DepthLoss loss;                         // between the source's relief and the film's
   std::vector<std::string> notes;         // what was done to the pictures
   std::vector<LostPart> lost;             // parts of the source that the film lacks
 };

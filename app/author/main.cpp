@@ -270,6 +270,7 @@ int run(Arguments& a) {
   }
   if (!summary) return tellEnd(summary.error(), a.output.path);
   say(toText(a.output.path, *summary));
+  if (const char* const why = whyTooFar(summary->loss)) return tell({a.output.path, {ErrorCode::Io, 0, why}});
   return summary->lost.empty() ? kExitDone : tell(failureOf(summary->lost.front()));
 }
 

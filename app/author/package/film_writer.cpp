@@ -51,7 +51,8 @@ struct Track {
   }
   Result<void> finish() {
     if (auto added_all = line.finish(); !added_all) return added_all;
-    return encoder.drain(sink());
+    if (auto drained = encoder.drain(sink()); !drained) return drained;
+    return check != nullptr ? check->decode(nullptr) : Result<void>{};
   }
 
   Result<void> encode(const Picture& picture);
@@ -64,6 +65,7 @@ struct Track {
   FilmPlace* film = nullptr;
   AVStream* stream = nullptr;
   TrackTotals totals;
+  DepthCheck* check = nullptr;
   std::size_t added = 0;
   std::array<Picture, Line::kBuffers> pictures;
   Line line;  // the last member: it ends before what it uses
@@ -95,6 +97,9 @@ Result<void> Track::encode(const Picture& picture) {
 
 Result<void> Track::write(AVPacket& packet) {
   totals.bytes += static_cast<std::uint64_t>(packet.size);
+  if (check != nullptr) {
+    if (auto decoded = check->decode(&packet); !decoded) return decoded;
+  }
   packet.stream_index = stream->index;
   av_packet_rescale_ts(&packet, VideoEncoder::kTimeBase, stream->time_base);
   return film->write(packet);
@@ -228,11 +233,16 @@ FilmWriter::FilmWriter(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 FilmWriter::~FilmWriter() = default;
 
 Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmFormat& format,
-                                                       Existing existing, std::unique_ptr<KeptTracks> kept) {
+                                                       Existing existing, std::unique_ptr<KeptTracks> kept,
+                                                       DepthCheck* check) {
   av_log_set_level(AV_LOG_QUIET);  // the program prints its own error line
   auto impl = std::make_unique<Impl>();
   impl->kept = std::move(kept);
   if (auto begun = impl->begin(path, format, existing); !begun) return std::unexpected(begun.error());
+  if (check != nullptr) {
+    if (auto opened = check->open(impl->depth.encoder.context()); !opened) return std::unexpected(opened.error());
+    impl->depth.check = check;
+  }
   return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(impl)));
 }
 

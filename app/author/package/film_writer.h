@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "app/author/package/depth_check.h"
 #include "app/author/package/depth_coding.h"
 #include "app/author/package/kept_tracks.h"
 #include "app/author/package/picture.h"
@@ -62,11 +63,14 @@ struct FilmTotals {
 // network stream is sent in real time: writing blocks. Timestamps of a track must increase.
 class FilmWriter {
  public:
+  // `check`: sees the depth's packets, and must outlive the writer. Null: none.
+  //
   // InvalidArgument for an unknown kind of film (filmKindOf) or one that cannot hold the codec, NotFound if the folder
   // does not exist, Unsupported without the codec's library.
   [[nodiscard]] static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmFormat& format,
                                                                   Existing existing = Existing::Replace,
-                                                                  std::unique_ptr<KeptTracks> kept = nullptr);
+                                                                  std::unique_ptr<KeptTracks> kept = nullptr,
+                                                                  DepthCheck* check = nullptr);
   ~FilmWriter();
 
   // The memory of the next colour picture. One that is made there is not copied by `writeColor`, and may be read until

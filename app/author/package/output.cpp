@@ -76,8 +76,7 @@ double mm(double levels) {
   return levels * DisplayVolume::kDefaultDepthMm / 255;
 }
 double newtons(double levels) {
-  constexpr double kStiffnessNPerMm = 0.5;  // the player's
-  return mm(levels) * kStiffnessNPerMm;
+  return newtonsOf(mm(levels));
 }
 
 std::string enhancementLines(Enhancement how, const EnhancementSummary& e) {
@@ -203,6 +202,7 @@ std::string toText(const std::string& path, const AuthorSummary& summary) {
   if (!summary.read_as.empty()) text += "  read as: " + summary.read_as + "\n";
   for (const std::string& line : summary.read_because) text += "    " + line + "\n";
   text += codesLine(summary.codes);
+  text += toText(summary.loss);
   if (!summary.kept.empty()) text += "  kept: " + joined(summary.kept) + "\n";
   const auto tag = [&f](const char* key) {
     const auto found = f.depth_tags.find(key);

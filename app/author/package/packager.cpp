@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/author/package/color_to_420.h"
+#include "app/author/package/film_kind.h"
 #include "app/author/package/output.h"
 #include "app/author/package/source_notes.h"
 #include "app/media/reading/depth_doubts.h"
@@ -39,6 +40,10 @@ Outcome<void> Packager::begin(const FramePair& pair) {
     enhancer_.emplace(*output_.enhancement, sourceCalibration());
     coder_ = DepthCoder(enhancer_->outcome(), output_.depth);
   }
+  if (filmKindOf(output_.path) != FilmKind::Live) {
+    check_.emplace(sourceCalibration(), enhancer_ ? std::optional(enhancer_->outcome()) : std::nullopt,
+                   coder_.outcome());
+  }
 
   format_.color_width = pair.color.width - cut_.color_cols;
   format_.color_height = pair.color.height - cut_.color_rows;
@@ -61,8 +66,8 @@ Outcome<void> Packager::begin(const FramePair& pair) {
   const Material whole = material_ ? withoutThoseOf(material_->scale(), info.material) : info.material;
   if (!whole.empty()) format_.depth_tags[kMaterialTag] = materialText(whole);
   format_.depth_tags[kReadAsTag] = plainLine(info.reading, sourceCalibration());
-  auto writer =
-      FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep, keptTracks());
+  auto writer = FilmWriter::create(output_.path, format_, output_.force ? Existing::Replace : Existing::Keep,
+                                   keptTracks(), check_ ? &*check_ : nullptr);
   if (!writer) return failOn(output_.path, writer.error());
   writer_ = std::move(*writer);
   return {};
@@ -144,6 +149,7 @@ Outcome<void> Packager::write(const FramePair& pair) {
 
 Outcome<void> Packager::takeDepth(const Frame& depth, bool key) {
   depth_keys_.push_back(key);
+  if (check_) check_->read(depth);
   if (!enhancer_) return writeDepth(depth);
   if (auto added = enhancer_->add(depth); !added) return failOn("depth", added.error());
   return writeEnhanced();
@@ -166,6 +172,7 @@ Outcome<void> Packager::writeDepth(const Frame& depth) {
   }
   DepthPicture picture;
   if (auto coded = coder_.encode(depth, picture); !coded) return failOn("depth", coded.error());
+  if (check_) check_->write(depth, picture);
   if (auto written = writer_->writeDepth(picture, depth.pts, key); !written)
     return failOn(output_.path, written.error());
   return {};
@@ -201,11 +208,11 @@ Outcome<AuthorSummary> Packager::finish(bool whole) {
                         .enhanced = enhancer_ ? enhancer_->summary() : EnhancementSummary{},
                         .read_as = plainLine(info_.reading, sourceCalibration()),
                         .read_because = info_.reading.why,
+                        .loss = check_ ? check_->loss() : DepthLoss{},
                         .notes = code_notes_};
   const auto& offers = info_.reading.offers;
   summary.read_because.insert(summary.read_because.end(), offers.begin(), offers.end());
-  const bool lossy = format_.depth.crf > 0 && format_.depth.codec != VideoCodec::Ffv1;
-  if (!coder_.outcome().invalid.empty() && lossy) {
+  if (!coder_.outcome().invalid.empty() && !format_.depth.isLossless()) {
     summary.notes.emplace_back("coding shifts some edges of holes by a sample; --depth-crf 0 avoids this");
   }
   if (not_later_ > 0) {

@@ -13,6 +13,7 @@
 
 #include "app/author/author.h"
 #include "app/author/material/material_track.h"
+#include "app/author/package/depth_check.h"
 #include "app/author/package/even_cut.h"
 #include "app/author/package/key_frames.h"
 #include "app/author/package/work_line.h"
@@ -59,6 +60,7 @@ class Packager {
   FilmInfo info_;
   const SourceOptions& source_;
   const OutputOptions& output_;
+  std::optional<DepthCheck> check_;  // not of a film that is sent in real time
   std::unique_ptr<FilmWriter> writer_;
   std::optional<DepthEnhancer> enhancer_;
   DepthCoder coder_{DepthCalibration{}};  // replaced in `begin` by the film's

@@ -56,7 +56,10 @@ Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOpt
   summary.format = formatOf(sample, output);
   summary.format.depth_tags = calibrationTags(coder.outcome());
   summary.frame_period = summary.format.frame_period;
-  auto writer = FilmWriter::create(output.path, summary.format, output.force ? Existing::Replace : Existing::Keep);
+  DepthCheck check(DepthCalibration{}, std::nullopt, coder.outcome());
+  const bool is_checked = filmKindOf(output.path) != FilmKind::Live;
+  auto writer = FilmWriter::create(output.path, summary.format, output.force ? Existing::Replace : Existing::Keep,
+                                   nullptr, is_checked ? &check : nullptr);
   if (!writer) return failOn(output.path, writer.error());
 
   SamplePicture picture{.cols = sample.cols, .rows = sample.rows, .rgb = {}, .depth = {}};
@@ -72,6 +75,10 @@ Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOpt
     renderSample(t_s, sample.threads, picture);
     if (auto made = toColor420(rgbFrame(picture), color); !made) return failOn(output.path, made.error());
     if (auto coded = coder.encode(depthFrame(picture), depth); !coded) return failOn(output.path, coded.error());
+    if (is_checked) {
+      check.read(depthFrame(picture));
+      check.write(depthFrame(picture), depth);
+    }
     const bool key = key_frames.isDue(mediaTime(t_s), true);
     auto written = (*writer)->writeColor(color, mediaTime(t_s), key);
     if (written) written = (*writer)->writeDepth(depth, mediaTime(t_s), key);
@@ -82,6 +89,7 @@ Outcome<AuthorSummary> authorSample(const SampleOptions& sample, const OutputOpt
   if (!totals) return failOn(output.path, totals.error());
   summary.totals = *totals;
   summary.codes = coder.counts();
+  summary.loss = check.loss();
   summary.notes = coder.explain();
   return summary;
 }

@@ -3,22 +3,16 @@
 // codec.
 #include "app/lab/film/coded_depth.h"
 
-#include <algorithm>
-#include <cerrno>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "app/coding/packet_decoder.h"
+
 namespace relievo {
 namespace {
 
-struct Free {
-  void operator()(AVCodecContext* context) const noexcept { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const noexcept { av_frame_free(&frame); }
-  void operator()(AVCodecParameters* parameters) const noexcept { avcodec_parameters_free(&parameters); }
-};
-using CodecContext = std::unique_ptr<AVCodecContext, Free>;
-using Picture = std::unique_ptr<AVFrame, Free>;
+using Picture = PacketDecoder::Picture;
 
 Result<void> check(std::span<const Frame> frames, int bits) {
   if (frames.empty()) return fail(ErrorCode::InvalidArgument, "no frames to encode");
@@ -35,18 +29,6 @@ Result<void> check(std::span<const Frame> frames, int bits) {
     }
   }
   return {};
-}
-
-Result<CodecContext> openDecoder(const AVCodecContext& encoder) {
-  const std::unique_ptr<AVCodecParameters, Free> parameters(avcodec_parameters_alloc());
-  const AVCodec* const decoder = avcodec_find_decoder(encoder.codec_id);
-  CodecContext context(decoder == nullptr ? nullptr : avcodec_alloc_context3(decoder));
-  if (!context || !parameters || avcodec_parameters_from_context(parameters.get(), &encoder) < 0 ||
-      avcodec_parameters_to_context(context.get(), parameters.get()) < 0 ||
-      avcodec_open2(context.get(), decoder, nullptr) < 0) {
-    return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for this codec; install one that does");
-  }
-  return context;
 }
 
 // 4:0:0 may be decoded as 4:2:0 with flat chroma: only the first plane carries data then.
@@ -77,10 +59,12 @@ class RoundTrip {
 
   Result<CodedDepth> run(const VideoEncoder::Settings& settings) {
     if (auto opened = encoder_.open(settings, false); !opened) return std::unexpected(opened.error());
-    auto decoder = openDecoder(encoder_.context());
-    if (!decoder) return std::unexpected(decoder.error());
-    decoder_ = std::move(*decoder);
-    const VideoEncoder::Sink sink = [this](AVPacket& packet) { return decode(packet); };
+    if (auto opened = decoder_.open(encoder_.context()); !opened) return std::unexpected(opened.error());
+    const PacketDecoder::Sink pictures = [this](Picture picture) { return take(std::move(picture)); };
+    const VideoEncoder::Sink sink = [&](AVPacket& packet) {
+      coded_.bytes += static_cast<std::uint64_t>(packet.size);
+      return decoder_.decode(&packet, pictures);
+    };
     std::optional<MediaTime> last_key;
     for (const Frame& original : originals_) {
       const bool key = !last_key || original.pts - *last_key >= std::chrono::seconds(1);
@@ -93,14 +77,14 @@ class RoundTrip {
       }
     }
     if (auto drained = encoder_.drain(sink); !drained) return std::unexpected(drained.error());
-    if (avcodec_send_packet(decoder_.get(), nullptr) < 0 || !collectPictures()) return failed();
-    if (coded_.frames.size() != originals_.size()) return failed();
+    if (auto last = decoder_.decode(nullptr, pictures); !last) return std::unexpected(last.error());
+    if (coded_.frames.size() != originals_.size()) {
+      return fail(ErrorCode::Io, "encoding or decoding depth in memory failed");
+    }
     return std::move(coded_);
   }
 
  private:
-  static std::unexpected<Error> failed() { return fail(ErrorCode::Io, "encoding or decoding depth in memory failed"); }
-
   // Removes the gaps between rows.
   static std::vector<std::uint8_t> packed(const Frame& frame, std::size_t component) {
     const int width = component == 0 ? frame.width : frame.width >> frame.chroma_shift_x;
@@ -114,27 +98,16 @@ class RoundTrip {
     return plane;
   }
 
-  Result<void> decode(AVPacket& packet) {
-    coded_.bytes += static_cast<std::uint64_t>(packet.size);
-    if (avcodec_send_packet(decoder_.get(), &packet) < 0 || !collectPictures()) return failed();
-    return {};
-  }
-
-  bool collectPictures() {
-    for (;;) {
-      Picture picture(av_frame_alloc());
-      if (!picture) return false;
-      const int got = avcodec_receive_frame(decoder_.get(), picture.get());
-      if (got == AVERROR(EAGAIN) || got == AVERROR_EOF) return true;
-      const std::size_t index = coded_.frames.size();
-      if (got < 0 || index >= originals_.size()) return false;
-      coded_.frames.push_back(frameOf(std::move(picture), originals_[index]));
-    }
+  bool take(Picture picture) {
+    const std::size_t index = coded_.frames.size();
+    if (index >= originals_.size()) return false;
+    coded_.frames.push_back(frameOf(std::move(picture), originals_[index]));
+    return true;
   }
 
   std::span<const Frame> originals_;
   VideoEncoder encoder_;
-  CodecContext decoder_;
+  PacketDecoder decoder_;
   CodedDepth coded_;
 };
 
