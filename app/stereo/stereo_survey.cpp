@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app/stereo/block_matching.h"
+#include "app/stereo/quick/disparity_count.h"
 #include "hal/media/samples.h"
 #include "platform/print.h"
 
@@ -18,8 +19,8 @@ constexpr int kKeptCols = 640;          // of what is kept: in which the eyes ar
 constexpr int kReducedCols = 320;       // in which the range is measured
 constexpr std::size_t kMostAsked = 8;   // pictures of a shot that are examined for the eyes' order
 constexpr int kWidest = 6;              // the largest disparity is the width divided by this
-constexpr int kTexture = 4;             // levels among five pixels of a row: black with its noise has fewer
 constexpr double kSame = 0.75;          // levels between two views, on average
+constexpr double kSamePlace = 0.5;      // pixels of what is kept reduced
 constexpr double kLeastShift = 0.5;     // pixels that are worth correcting
 constexpr double kBadRest = 1.5;        // pixels
 constexpr const char* kSamePicture = "both views are the same picture: there is no depth to be had from it";
@@ -40,55 +41,6 @@ double difference(const ViewPicture& a, const ViewPicture& b) {
 Alignment scaledBy(Alignment alignment, double scale) {
   alignment.shift *= scale;
   return alignment;
-}
-
-// Disparities of the textured pixels by their counts, in quarters of a pixel. What is matched elsewhere is chance: the
-// black around a title would have the widest range.
-class DisparityCount {
- public:
-  explicit DisparityCount(int widest) : widest_(widest), counts_(static_cast<std::size_t>(2 * widest + 1) * 4) {}
-  void add(const DisparityMap& map, const ViewPicture& left) {
-    cv::Mat contrast;
-    cv::morphologyEx(lumaOf(left), contrast, cv::MORPH_GRADIENT, cv::Mat::ones(1, 5, CV_8U));
-    pixels_ += map.size();
-    for (std::size_t i = 0; i < map.size(); ++i) {
-      if (contrast.data[i] < kTexture) continue;
-      ++textured_;
-      if (map.seen[i] == 0) continue;
-      const auto place = static_cast<std::ptrdiff_t>((map.pixels[i] + static_cast<float>(widest_)) * 4);
-      ++counts_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(place, 0, std::ssize(counts_) - 1))];
-      ++all_;
-    }
-  }
-  // The share of the textured pixels that both views show; none if there are too few to tell it from chance.
-  [[nodiscard]] double found() const {
-    constexpr double kLeastTextured = 0.005;
-    const auto textured = static_cast<double>(textured_);
-    return textured_ > 0 && textured >= kLeastTextured * static_cast<double>(pixels_)
-               ? static_cast<double>(all_) / textured
-               : 0;
-  }
-  // The disparity below which this share lies.
-  [[nodiscard]] double below(double share) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-      sum += static_cast<double>(counts_[i]);
-      if (sum >= share * static_cast<double>(all_)) return static_cast<double>(i) / 4 - widest_;
-    }
-    return widest_;
-  }
-
- private:
-  int widest_;
-  std::vector<std::uint64_t> counts_;
-  std::uint64_t all_ = 0, textured_ = 0, pixels_ = 0;
-};
-
-// True if nine tenths of the samples have a disparity within half a pixel of zero, as two copies of one picture have: a
-// codec and noise shift a sample by less than that.
-bool isSame(const DisparityCount& count) {
-  constexpr double kOutliers = 0.05, kMost = 0.5;  // pixels of the reduced picture
-  return count.below(kOutliers) >= -kMost && count.below(1 - kOutliers) + 0.25 <= kMost;
 }
 
 }  // namespace
@@ -179,8 +131,9 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
     count.add(quick_.match(left, reduced(looked.right, cols), {-widest, widest}), left);
   }
   shot.has_depth = count.found() > kLeastFound;
-  if (shot.has_depth && isSame(count)) ++same_;
-  const double low = scale * count.below(kOutliers), high = scale * (count.below(1 - kOutliers) + 0.25);
+  if (shot.has_depth && count.isNone(kSamePlace)) ++same_;
+  const DisparityCount::Reach reach = count.reach(kOutliers);
+  const double low = scale * reach.low, high = scale * reach.high;
   const double spare = scale + kSpare * (high - low);
   shot.range = {static_cast<int>(std::floor(low - spare)), static_cast<int>(std::ceil(high + spare))};
 }

@@ -6,24 +6,23 @@
 #include <memory>
 
 #include "app/stereo/hole_filling.h"
+#include "app/stereo/quick/disparity_count.h"
 #include "app/stereo/quick/outline_snapping.h"
 #include "app/stereo/quick/row_shift.h"
-#include "platform/quantile.h"
 
 namespace relievo {
 namespace {
 
 constexpr int kSurveyCols = 160;     // in which the range is measured
 constexpr int kWidest = 6;           // the largest disparity is the width divided by this
-constexpr double kLeastFound = 0.4;  // share of the pixels that both views show; of two other pictures a tenth
+constexpr double kLeastFound = 0.4;  // share of the textured pixels that both views show; of two other pictures a tenth
 constexpr double kOutliers = 0.005;
-constexpr double kMoved = 0.05;      // share of the pixels, at each end, that may lie elsewhere in one picture twice
-constexpr float kSamePlace = 0.25F;  // pixels of the survey
+constexpr double kSamePlace = 0.25;  // pixels of the survey
 constexpr int kVoteCols =
     320;  // the width at which the eyes' order is first examined, since a shot has to begin quickly
 constexpr int kClearVoteCols = 640;  // the width if that is not conclusive
-constexpr float kSpare = 0.2F;       // of the range, on each side
-constexpr float kLeastSpare = 1.5F;  // pixels of the survey
+constexpr double kSpare = 0.2;       // of the range, on each side
+constexpr double kLeastSpare = 1.5;  // pixels of the survey
 constexpr float kHighest = 65535;
 constexpr int kLookEvery = 4;  // pictures: something may have come nearer than all before
 constexpr int kVotes = 6;      // pictures of a shot that are examined for the eyes' order
@@ -89,17 +88,14 @@ std::optional<QuickDepth::Range> QuickDepth::reach() {
   const ViewSize size{cols, std::max(1, left_.rows * cols / left_.cols)};
   reduce(left_, size, small_left_);
   reduce(right_, size, small_right_);
-  const DisparityMap& found = matching_.match(small_left_, small_right_, {-widest, widest});
-  std::vector<float> seen;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found.seen[i] != 0) seen.push_back(found.pixels[i]);
-  }
-  if (static_cast<double>(seen.size()) < kLeastFound * static_cast<double>(found.size())) return std::nullopt;
-  one_picture_ = quantile(seen, kMoved) >= -kSamePlace && quantile(seen, 1 - kMoved) <= kSamePlace;
+  DisparityCount count(widest + 1);
+  count.add(matching_.match(small_left_, small_right_, {-widest, widest}), small_left_);
+  if (count.found() < kLeastFound) return std::nullopt;
+  one_picture_ = count.isNone(kSamePlace);
   if (one_picture_) return std::nullopt;
-  const float low = quantile(seen, kOutliers), high = quantile(seen, 1 - kOutliers);
-  const float spare = std::max(kLeastSpare, kSpare * (high - low)), width = static_cast<float>(cols);
-  return Range{(low - spare) / width, (high + spare) / width};
+  const DisparityCount::Reach reach = count.reach(kOutliers);
+  const double spare = std::max(kLeastSpare, kSpare * (reach.high - reach.low));
+  return Range{static_cast<float>((reach.low - spare) / cols), static_cast<float>((reach.high + spare) / cols)};
 }
 
 void QuickDepth::measureShot() {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "hal/media/frame.h"
@@ -120,6 +121,23 @@ inline TwoViews boards(int cols = 320, int rows = 200) {
           .boards = {{0, 0, w, h, -8, 0.02, {110, 120, 90}},
                      {0.1 * w, 0.5 * h, 0.4 * w, 0.9 * h, 0, 0, {170, 80, 70}},
                      {0.55 * w, 0.2 * h, 0.8 * w, 0.75 * h, 12.5, 0, {70, 100, 180}}}};
+}
+
+// Five pixels before the screen, of 320 columns.
+inline TwoViews titleInTheBlack() {
+  return {.boards = {{0, 0, 320, 200, 0, 0, {-200, -200, -200}}, {110, 80, 210, 115, 5, 0, {190, 190, 190}}}};
+}
+
+// Up to two levels brighter here and there, each view in other places, as a codec leaves what is black.
+inline Frame withGrain(Frame frame, unsigned seed) {
+  std::mt19937 random(seed);
+  auto bytes = std::make_shared<std::vector<std::uint8_t>>(
+      frame.planes[0].data, frame.planes[0].data + frame.planes[0].stride_bytes * frame.height);
+  for (std::uint8_t& byte : *bytes)
+    byte = static_cast<std::uint8_t>(std::min(int{byte} + static_cast<int>(random() % 3), 255));
+  frame.planes[0].data = bytes->data();
+  frame.owner = bytes;
+  return frame;
 }
 
 }  // namespace relievo::test

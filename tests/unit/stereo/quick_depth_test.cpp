@@ -287,6 +287,16 @@ TEST(QuickDepth, WithoutCommonThingsAShotIsFlatUntilTheyCome) {
   EXPECT_GT(codeOf(both, 430, 170), codeOf(both, 10, 10) + 10000);
 }
 
+TEST(QuickDepth, TheBlackAroundATitleDoesNotWidenTheRange) {
+  const TwoViews title = test::titleInTheBlack();
+  QuickDepth quick;
+  static_cast<void>(quick.depthOf(test::withGrain(title.left(), 1), test::withGrain(title.right(), 2)));
+  const auto range = quick.range();
+  ASSERT_TRUE(range);
+  EXPECT_GT(320 * range->low, -1);
+  EXPECT_LT(320 * range->high, 11);
+}
+
 // A view that was squeezed to half of its width has depth in its own shape.
 TEST(QuickDepth, HasTheShapeInWhichTheViewIsShown) {
   const TwoViews scene = boards(kCols, kRows);

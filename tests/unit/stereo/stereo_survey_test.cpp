@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
-#include <random>
 #include <vector>
 
 #include "tests/support/film/two_views.h"
@@ -18,7 +16,9 @@ namespace {
 
 using test::boards;
 using test::RightEye;
+using test::titleInTheBlack;
 using test::TwoViews;
+using test::withGrain;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -54,21 +54,8 @@ TEST(StereoSurvey, ReachesFromBehindTheScreenToBeforeIt) {
   EXPECT_LE(shot.range.highest, 19);
 }
 
-// Up to two levels brighter here and there, each view in other places, as a codec leaves what is black.
-Frame withGrain(Frame frame, unsigned seed) {
-  std::mt19937 random(seed);
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>(
-      frame.planes[0].data, frame.planes[0].data + frame.planes[0].stride_bytes * frame.height);
-  for (std::uint8_t& byte : *bytes)
-    byte = static_cast<std::uint8_t>(std::min(int{byte} + static_cast<int>(random() % 3), 255));
-  frame.planes[0].data = bytes->data();
-  frame.owner = bytes;
-  return frame;
-}
-
 TEST(StereoSurvey, TheBlackAroundATitleDoesNotWidenTheRange) {
-  TwoViews title = boards();
-  title.boards = {{0, 0, 320, 200, 0, 0, {-200, -200, -200}}, {110, 80, 210, 115, 5, 0, {190, 190, 190}}};
+  const TwoViews title = titleInTheBlack();
   const auto plan = planOf(withGrain(title.left(), 1), withGrain(title.right(), 2)).value();
   const ShotPlan& shot = plan.shots[0];
   EXPECT_TRUE(shot.has_depth);
