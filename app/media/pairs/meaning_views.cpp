@@ -99,13 +99,14 @@ bool FilmMeaning::takeSaidViews(const StreamInfo& color, const Frame& look, cons
   return true;
 }
 
-// By the likeness of the halves and the break between them.
+// By the likeness of the halves, and the break or the black bars between them.
 void FilmMeaning::lookForViews(const Frame& look) {
   const auto found = findViews(look);
   if (!found) return;
   const bool beside = *found == Packing::StereoSideBySide;
   const std::string halves = beside ? "the left and right halves" : "the upper and lower halves";
-  if (breaksInTheMiddle(look, beside)) showViews(*found, (halves + " are").c_str());
+  if (breaksInTheMiddle(look, beside) || barsMeetInTheMiddle(look, *found))
+    showViews(*found, (halves + " are").c_str());
   else
     film_.info.reading.doubts.push_back(
         print("%s may be %s; if so, --packing %s", halves.c_str(), kViews, name(*found)));

@@ -58,6 +58,20 @@ TEST(Recordings, TwoViewsAreToldAndNeverFelt) {
               Contains(HasSubstr("the same picture")));
 }
 
+// Black bars above and below each view meet in the middle, where there is no break; one wide film has none there.
+TEST(Recordings, WideViewsBetweenBlackBarsAreTold) {
+  const auto wide = [](int shift, int first, int last) {
+    return Half{
+        [=](int c, int r) { return r < first || r > last ? std::array{0.0, 0.0, 0.0} : photoOf(c + shift, r); }};
+  };
+  constexpr int kBar = 12, kLast = kSceneRows - 1 - kBar;
+  TemporaryFolder folder;
+  makeHalves(folder / "views.mp4", false, wide(0, kBar, kLast), wide(6, kBar, kLast));
+  EXPECT_EQ(open({.url = folder / "views.mp4"}).info.packing, Packing::StereoTopBottom);
+  makeHalves(folder / "one.mp4", false, wide(0, kBar, kSceneRows), wide(6, 0, kLast));
+  EXPECT_FALSE(hasTwoViews(open({.url = folder / "one.mp4"}).info.packing));
+}
+
 // 12 of 180 rows, as of two cameras that were held by hand.
 TEST(Recordings, AViewThatLiesTooHighOrTooLowIsTold) {
   constexpr int kCols = 320, kRows = 180;

@@ -22,6 +22,7 @@ constexpr double kTexture = 0.02;       // least standard deviation in a block, 
 constexpr double kAlike = 0.85;         // correlation of a block that was found
 constexpr double kFound = 0.6;          // share of the blocks in a stereo pair; of colour and depth 0.15
 constexpr int kLeastBlocks = 12;        // a picture with less texture cannot be judged
+constexpr double kBlack = 0.1;          // brightness of a bar; black of limited range is 0.06
 
 using Reduced = std::vector<double>;
 
@@ -156,11 +157,37 @@ Likeness likenessOf(const Frame& first, const Frame& second) {
   return moved.found > level.found ? moved : level;
 }
 
+// Rows or columns of the reduced picture that are black from its border on.
+struct Bars {
+  int before = 0, behind = 0;
+};
+Bars barsOf(const Reduced& a, bool columns) {
+  const int lines = columns ? kCols : kRows, across = columns ? kRows : kCols;
+  const auto isBlack = [&](int line) {
+    for (int i = 0; i < across; ++i) {
+      if (a[columns ? at(line, i) : at(i, line)] > kBlack) return false;
+    }
+    return true;
+  };
+  Bars bars;
+  while (bars.before < lines && isBlack(bars.before)) ++bars.before;
+  while (bars.before + bars.behind < lines && isBlack(lines - 1 - bars.behind)) ++bars.behind;
+  return bars;
+}
+
 }  // namespace
 
 bool areViews(const Frame& first, const Frame& second) {
   const Likeness likeness = likenessOf(first, second);
   return likeness.textured >= kLeastBlocks && likeness.found >= kFound * likeness.textured;
+}
+
+bool barsMeetInTheMiddle(const Frame& picture, Packing packing) {
+  const bool beside = packing == Packing::StereoSideBySide;
+  const auto halves = splitPacked(picture, beside ? Packing::SideBySide : Packing::TopBottom, DepthCode::Hue);
+  if (!halves) return false;
+  const Bars first = barsOf(reduce(halves->color), beside), second = barsOf(reduce(halves->depth), beside);
+  return std::min({first.before, first.behind, second.before, second.behind}) > 0;
 }
 
 bool areOtherPictures(const Frame& first, const Frame& second) {

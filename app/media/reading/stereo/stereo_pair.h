@@ -20,6 +20,9 @@ namespace relievo {
 // StereoSideBySide or StereoTopBottom if the picture's halves are two views of one scene, else nullopt.
 [[nodiscard]] std::optional<Packing> findViews(const Frame& picture);
 
+// True if each half lies between two black bars, so that one of each meets at the middle: two wide films, not one.
+[[nodiscard]] bool barsMeetInTheMiddle(const Frame& picture, Packing packing);
+
 struct Views {
   Frame left, right;
 };
