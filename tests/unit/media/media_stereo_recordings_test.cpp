@@ -72,6 +72,20 @@ TEST(Recordings, WideViewsBetweenBlackBarsAreTold) {
   EXPECT_FALSE(hasTwoViews(open({.url = folder / "one.mp4"}).info.packing));
 }
 
+// The left half looks much like the right one in both views; the views are more alike.
+TEST(Recordings, TheHalvesThatAreMoreAlikeAreTheViews) {
+  const auto repeating = [](int shift) {
+    return Half{[=](int c, int r) {
+      const int x = (r < kSceneRows * 3 / 4 ? c % (kSceneCols / 2) : c) + shift;
+      const double level = 0.5 + 0.4 * test::smoothNoise(x / 8.0, r / 8.0, 7);
+      return std::array{level, level, 0.8 * level};
+    }};
+  };
+  TemporaryFolder folder;
+  makeHalves(folder / "views.mp4", false, repeating(0), repeating(6));
+  EXPECT_EQ(open({.url = folder / "views.mp4"}).info.packing, Packing::StereoTopBottom);
+}
+
 // 12 of 180 rows, as of two cameras that were held by hand.
 TEST(Recordings, AViewThatLiesTooHighOrTooLowIsTold) {
   constexpr int kCols = 320, kRows = 180;

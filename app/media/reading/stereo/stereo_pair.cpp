@@ -157,6 +157,10 @@ Likeness likenessOf(const Frame& first, const Frame& second) {
   return moved.found > level.found ? moved : level;
 }
 
+bool areViews(const Likeness& likeness) {
+  return likeness.textured >= kLeastBlocks && likeness.found >= kFound * likeness.textured;
+}
+
 // Rows or columns of the reduced picture that are black from its border on.
 struct Bars {
   int before = 0, behind = 0;
@@ -178,8 +182,7 @@ Bars barsOf(const Reduced& a, bool columns) {
 }  // namespace
 
 bool areViews(const Frame& first, const Frame& second) {
-  const Likeness likeness = likenessOf(first, second);
-  return likeness.textured >= kLeastBlocks && likeness.found >= kFound * likeness.textured;
+  return areViews(likenessOf(first, second));
 }
 
 bool barsMeetInTheMiddle(const Frame& picture, Packing packing) {
@@ -197,12 +200,18 @@ bool areOtherPictures(const Frame& first, const Frame& second) {
 }
 
 std::optional<Packing> findViews(const Frame& picture) {
+  std::optional<Packing> found;
+  double most = 0;
   for (const Packing packing : {Packing::SideBySide, Packing::TopBottom}) {
     const auto halves = splitPacked(picture, packing, DepthCode::Hue);
-    if (!halves || !areViews(halves->color, halves->depth)) continue;
-    return packing == Packing::SideBySide ? Packing::StereoSideBySide : Packing::StereoTopBottom;
+    if (!halves) continue;
+    const Likeness likeness = likenessOf(halves->color, halves->depth);
+    const double share = likeness.found / std::max(1.0, 1.0 * likeness.textured);
+    if (!areViews(likeness) || share <= most) continue;
+    most = share;
+    found = packing == Packing::SideBySide ? Packing::StereoSideBySide : Packing::StereoTopBottom;
   }
-  return std::nullopt;
+  return found;
 }
 
 std::optional<Views> viewsOf(const Frame& picture, Packing packing, bool right_first, std::optional<bool> squeezed) {

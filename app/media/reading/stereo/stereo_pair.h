@@ -17,7 +17,8 @@ namespace relievo {
 // True if both pictures have texture but share hardly any of it: they are not two views of one scene.
 [[nodiscard]] bool areOtherPictures(const Frame& first, const Frame& second);
 
-// StereoSideBySide or StereoTopBottom if the picture's halves are two views of one scene, else nullopt.
+// StereoSideBySide or StereoTopBottom if the picture's halves are two views of one scene, whichever halves are more
+// alike; else nullopt.
 [[nodiscard]] std::optional<Packing> findViews(const Frame& picture);
 
 // True if each half lies between two black bars, so that one of each meets at the middle: two wide films, not one.
