@@ -20,7 +20,7 @@ struct ShotPlan {
   Exposure exposure;
   bool is_balanced = false;  // the right view has to be matched to the left one's exposure
   DisparityRange range;
-  bool has_depth = false;  // false: the shot is flat: a view is black, or both have nothing in common
+  bool has_depth = false;  // false: the shot is flat: a view is black, both are one picture or have nothing in common
 };
 
 struct StereoPlan {

@@ -131,7 +131,10 @@ void StereoSurvey::measureRange(ShotPlan& shot) {
     count.add(quick_.match(left, reduced(looked.right, cols), {-widest, widest}), left);
   }
   shot.has_depth = count.found() > kLeastFound;
-  if (shot.has_depth && count.isNone(kSamePlace)) ++same_;
+  if (shot.has_depth && count.isNone(kSamePlace)) {
+    shot.has_depth = false;
+    ++same_;
+  }
   const DisparityCount::Reach reach = count.reach(kOutliers);
   const double low = scale * reach.low, high = scale * reach.high;
   const double spare = scale + kSpare * (high - low);
@@ -178,8 +181,11 @@ void StereoSurvey::explain() {
     plan_.notes.push_back(
         print("in %d %s the rows of the two views do not match and could not be aligned", unfitting_, of.c_str()));
   }
-  if (flat > 0)
-    plan_.notes.push_back(print("%zu %s are flat: the two views show nothing in common there", flat, of.c_str()));
+  if (same_ > 0)
+    plan_.notes.push_back(print("%zu %s are flat: both views are the same picture there", same_, of.c_str()));
+  if (flat > same_)
+    plan_.notes.push_back(
+        print("%zu %s are flat: the two views show nothing in common there", flat - same_, of.c_str()));
 }
 
 Result<StereoPlan> StereoSurvey::finish() {
@@ -191,9 +197,9 @@ Result<StereoPlan> StereoSurvey::finish() {
   if (2 * alike_ > pictures_) {
     return fail(ErrorCode::Unsupported, kSamePicture);
   }
-  const auto deep = static_cast<std::size_t>(std::ranges::count_if(plan_.shots, &ShotPlan::has_depth));
-  if (deep > 0 && same_ == deep) return fail(ErrorCode::Unsupported, kSamePicture);
-  if (deep == 0) {
+  const bool is_flat = std::ranges::none_of(plan_.shots, &ShotPlan::has_depth);
+  if (is_flat && same_ > 0) return fail(ErrorCode::Unsupported, kSamePicture);
+  if (is_flat) {
     return fail(
         ErrorCode::Unsupported,
         "its views have nothing in common; it is no film of two views, or they have another layout: see --packing");

@@ -141,6 +141,21 @@ TEST(StereoSurvey, RefusesOnePictureWithOtherErrors) {
   EXPECT_THAT(plan.error().message, HasSubstr("the same picture"));
 }
 
+// A trailer of one view before a film of two: its noise does not fill the whole depth.
+TEST(StereoSurvey, AShotOfOnePictureTwiceIsFlatInAFilmWithDepth) {
+  const TwoViews scene = boards();
+  TwoViews trailer = boards();
+  for (auto& board : trailer.boards) board.color = {255 - board.color[0], 255 - board.color[1], 60};
+  StereoSurvey survey;
+  ASSERT_TRUE(survey.add(trailer.left(), trailer.leftWithGrain(8)).has_value());
+  ASSERT_TRUE(survey.add(at(scene.left(), 1), at(scene.right(), 1)).has_value());
+  const auto plan = survey.finish().value();
+  ASSERT_THAT(plan.shots, SizeIs(2));
+  EXPECT_FALSE(plan.shots[0].has_depth);
+  EXPECT_TRUE(plan.shots[1].has_depth);
+  EXPECT_THAT(plan.notes, ElementsAre(HasSubstr("1 of 2 shots are flat: both views are the same picture")));
+}
+
 TEST(StereoSurvey, EachShotHasItsOwnRangeFromItsFirstPictureOn) {
   TwoViews first = boards(), second = boards();
   for (auto& board : second.boards) std::swap(board.color[0], board.color[2]), board.color[1] = 255 - board.color[1];
