@@ -4,6 +4,7 @@
 #include "drivers/gamepad/pad_controls.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace relievo {
 namespace {
@@ -11,9 +12,16 @@ namespace {
 constexpr double kKeyPull = 0.6;
 constexpr double kUpperEnd = 0.75;  // from here on a pedal that is first heard of stands at its upper end
 
-bool isWheelsAxes(const PadFacts& facts) noexcept {
+// Some wheels have one range for all of their axes (hid-fanatecff: 0 to 65535), but every driver of one calls it so.
+bool isCalledWheel(const std::string& name) noexcept {
+  constexpr std::string_view kWheel = "wheel";
+  const auto same = [](char a, char b) { return a == b || a == b - 'a' + 'A'; };
+  return !std::ranges::search(name, kWheel, same).empty();
+}
+
+bool hasWheelsAxes(const PadFacts& facts) noexcept {
   const input_absinfo &x = facts.ranges[ABS_X], &y = facts.ranges[ABS_Y];
-  if (!facts.axes.has(ABS_Y) || facts.keys.has(BTN_WHEEL)) return true;
+  if (!facts.axes.has(ABS_Y) || facts.keys.has(BTN_WHEEL) || isCalledWheel(facts.name)) return true;
   return x.minimum != y.minimum || x.maximum != y.maximum;
 }
 
@@ -35,26 +43,40 @@ PadControls::Axis PadControls::axisOf(const PadFacts& facts, unsigned code) noex
   Axis axis{.code = code,
             .low = static_cast<double>(range.minimum),
             .high = static_cast<double>(range.maximum),
-            .value = static_cast<double>(range.value)};
+            .value = static_cast<double>(range.value),
+            .heard = range.value != 0};
   return axis;
 }
 
-PadControls::PadControls(const PadFacts& facts) noexcept : wheel_(isWheelsAxes(facts)) {
+PadControls::PadControls(const PadFacts& facts) noexcept : wheel_(hasWheelsAxes(facts)) {
   stick_ = {axisOf(facts, ABS_X), axisOf(facts, wheel_ ? ABS_HAT0Y : ABS_Y)};
   findTriggers(facts);
   findKeys(facts.keys);
 }
 
-void PadControls::findTriggers(const PadFacts& facts) noexcept {
+bool PadControls::mayPress(const PadFacts& facts, unsigned code) const noexcept {
   const bool second_stick = facts.axes.has(ABS_RX) && facts.axes.has(ABS_RY);
+  const bool pushes = facts.forces.has(FF_CONSTANT) || facts.forces.has(FF_SPRING);
+  switch (code) {
+    case ABS_GAS:
+    case ABS_BRAKE:
+      return true;
+    case ABS_HAT2X:
+    case ABS_HAT2Y:
+      return facts.ranges[code].minimum >= 0;  // else a hat or a stick
+    case ABS_Y:
+      return wheel_;
+    default:
+      return wheel_ || (second_stick && !pushes);
+  }
+}
+
+void PadControls::findTriggers(const PadFacts& facts) noexcept {
   std::size_t count = 0;
-  for (const unsigned code : {ABS_GAS, ABS_BRAKE, ABS_Z, ABS_RZ, ABS_Y}) {
-    const bool surely = code == ABS_GAS || code == ABS_BRAKE;
-    const bool may = surely || wheel_ || (second_stick && code != ABS_Y);
-    Axis axis = may ? axisOf(facts, code) : Axis{};
+  for (const unsigned code : {ABS_GAS, ABS_BRAKE, ABS_HAT2X, ABS_HAT2Y, ABS_Z, ABS_RZ, ABS_Y}) {
+    Axis axis = mayPress(facts, code) ? axisOf(facts, code) : Axis{};
     if (axis.code == ABS_CNT) continue;
-    axis.inverted = wheel_ && axis.share() > kUpperEnd;
-    axis.heard = !wheel_ || axis.inverted;
+    axis.inverted = wheel_ && axis.heard && axis.share() > kUpperEnd;
     triggers_[count++] = axis;
   }
 }
@@ -72,18 +94,20 @@ void PadControls::findKeys(const InputKeys& keys) noexcept {
 
 void PadControls::take(const input_event& event) RELIEVO_RT {
   if (event.type == EV_KEY) down_.put(event.code, event.value != 0);
-  if (event.type == EV_ABS) setAxis(event.code, event.value);
+  if (event.type == EV_ABS) learn(event.code, event.value, true);
 }
 
-void PadControls::setAxis(unsigned code, std::int32_t value) RELIEVO_RT {
+void PadControls::learn(unsigned code, std::int32_t value, bool reported) RELIEVO_RT {
   for (Axis& axis : stick_) {
-    if (axis.code == code) axis.value = value;
+    if (axis.code != code) continue;
+    axis.value = value;
+    axis.heard = axis.heard || reported;
   }
   for (Axis& axis : triggers_) {
     if (axis.code != code) continue;
     axis.value = value;
-    if (!axis.heard) axis.inverted = axis.share() > kUpperEnd;
-    axis.heard = true;
+    if (reported && !axis.heard) axis.inverted = wheel_ && axis.share() > kUpperEnd;
+    axis.heard = axis.heard || reported;
   }
 }
 
@@ -93,14 +117,14 @@ bool PadControls::uses(unsigned code) const RELIEVO_RT {
 }
 
 glm::dvec2 PadControls::stick() const RELIEVO_RT {
-  const auto place = [](const Axis& axis) { return axis.code == ABS_CNT ? 0.0 : 2 * axis.share() - 1; };
+  const auto place = [](const Axis& axis) { return axis.heard ? 2 * axis.share() - 1 : 0.0; };
   return {place(stick_[0]), -place(stick_[1])};  // evdev's y counts toward the user
 }
 
 double PadControls::pull() const RELIEVO_RT {
   double most = down_.has(press_key_) ? kKeyPull : 0;
   for (const Axis& axis : triggers_) {
-    if (axis.code == ABS_CNT) continue;
+    if (!axis.heard) continue;
     most = std::max(most, axis.inverted ? 1 - axis.share() : axis.share());
   }
   return most;
