@@ -28,15 +28,18 @@ bool isGamepad(const libevdev* device) noexcept {
 }
 
 PadKeys::PadKeys(const libevdev* device) {
-  for (Axis axis : {Axis{ABS_HAT0X, BTN_DPAD_LEFT, BTN_DPAD_RIGHT}, Axis{ABS_HAT0Y, BTN_DPAD_UP, BTN_DPAD_DOWN},
-                    Axis{ABS_RY, KEY_VOLUMEUP, KEY_VOLUMEDOWN}}) {
-    axis.low = libevdev_get_abs_minimum(device, axis.code);
-    axis.high = libevdev_get_abs_maximum(device, axis.code);
-    if (axis.low < axis.high) axes_.push_back(axis);  // one that the device lacks has 0 for both
-  }
   const auto has = [device](unsigned type, unsigned code) { return libevdev_has_event_code(device, type, code) != 0; };
   const bool second_stick = has(EV_ABS, ABS_RX) && has(EV_ABS, ABS_RY);
-  if (has(EV_ABS, ABS_GAS) || has(EV_ABS, ABS_BRAKE)) return;
+  const unsigned volume = !second_stick && has(EV_ABS, ABS_Z) ? ABS_RZ : ABS_RY;
+  for (Axis axis : {Axis{ABS_HAT0X, BTN_DPAD_LEFT, BTN_DPAD_RIGHT}, Axis{ABS_HAT0Y, BTN_DPAD_UP, BTN_DPAD_DOWN},
+                    Axis{volume, KEY_VOLUMEUP, KEY_VOLUMEDOWN}}) {
+    axis.low = libevdev_get_abs_minimum(device, axis.code);
+    axis.high = libevdev_get_abs_maximum(device, axis.code);
+    const bool touchpad = axis.code != volume && axis.high > 1;    // as of hid-steam
+    if (axis.low < axis.high && !touchpad) axes_.push_back(axis);  // one that the device lacks has 0 for both
+  }
+  const auto presses = [&](unsigned code) { return has(EV_ABS, code) && libevdev_get_abs_minimum(device, code) >= 0; };
+  if (has(EV_ABS, ABS_GAS) || has(EV_ABS, ABS_BRAKE) || presses(ABS_HAT2X) || presses(ABS_HAT2Y)) return;
   if (second_stick && (has(EV_ABS, ABS_Z) || has(EV_ABS, ABS_RZ))) return;
   for (const unsigned key : {BTN_TR2, BTN_TR, BTN_TRIGGER, BTN_SOUTH}) {
     if (press_key_ == KEY_RESERVED && has(EV_KEY, key)) press_key_ = key;

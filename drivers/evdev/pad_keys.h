@@ -18,7 +18,8 @@ namespace relievo {
 [[nodiscard]] bool isGamepad(const libevdev* device) noexcept;
 
 // The first stick and the triggers belong to the finger (drivers/gamepad), pressed or turned, and give no keys. A d-pad
-// that is a hat gives BTN_DPAD_..; the second stick gives the volume's keys, as in Kodi.
+// that is a hat gives BTN_DPAD_..; the second stick gives the volume's keys, as in Kodi: its y is ABS_RY, or ABS_RZ
+// beside ABS_Z on a pad without the former (over Bluetooth).
 class PadKeys {
  public:
   PadKeys() = default;

@@ -153,7 +153,7 @@ TEST_F(RemoteEvdev, TheFingersKeyAndAWheelWithAPedalGiveNoKeys) {
   codes[EV_KEY] = {BTN_SOUTH, BTN_EAST};
   UmockdevMouse plain(bed_, 8, codes);
   UmockdevMouse wheel(bed_, 9, UmockdevMouse::pad());
-  wheel.setPedal(255);
+  wheel.setRange(ABS_Y, 0, 255);
   const auto remote = makeEvdevRemote();
   ASSERT_TRUE(remote->open());
   const auto expectOnlyEast = [&](UmockdevMouse& pad, std::uint16_t presses) {
@@ -170,6 +170,41 @@ TEST_F(RemoteEvdev, TheFingersKeyAndAWheelWithAPedalGiveNoKeys) {
   wheel.unplug();
   now_ += 1s;
   EXPECT_FALSE(remote->poll(now_).value());
+}
+
+// As hid-steam describes it: touched there, the left touchpad would be a d-pad that jumps through the film.
+TEST_F(RemoteEvdev, ASteamDecksTouchpadIsNoDPad) {
+  auto codes = UmockdevMouse::pad();
+  codes[EV_ABS] = {ABS_X, ABS_Y, ABS_RX, ABS_RY, ABS_HAT0X, ABS_HAT0Y, ABS_HAT1X, ABS_HAT1Y, ABS_HAT2X, ABS_HAT2Y};
+  UmockdevMouse deck(bed_, 7, codes);
+  for (const unsigned trigger : {ABS_HAT2X, ABS_HAT2Y}) deck.setRange(trigger, 0, 32767);
+  for (const unsigned axis : {ABS_HAT0X, ABS_HAT0Y}) deck.setRange(axis, -32767, 32767);
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  deck.say(EV_ABS, ABS_HAT0X, -30000);
+  deck.say(EV_ABS, ABS_HAT0Y, 30000);
+  deck.say(EV_SYN, SYN_REPORT, 0);
+  press(deck, BTN_TR, 1);  // its triggers press the finger in
+  expectNext(*remote, BTN_TR, KeyEvent::Action::Press);
+}
+
+// An Xbox pad over Bluetooth, a Stadia pad and a Logitech F710 in its other mode.
+TEST_F(RemoteEvdev, TheSecondStickOfAPadWithoutRxAndRyIsItsVolume) {
+  auto codes = UmockdevMouse::pad();
+  codes[EV_ABS] = {ABS_X, ABS_Y, ABS_Z, ABS_RZ, ABS_GAS, ABS_BRAKE, ABS_HAT0X, ABS_HAT0Y};
+  UmockdevMouse pad(bed_, 7, codes);
+  for (const unsigned axis : {ABS_X, ABS_Y, ABS_Z, ABS_RZ}) pad.setRange(axis, 0, 65535);
+  const auto remote = makeEvdevRemote();
+  ASSERT_TRUE(remote->open());
+  const auto turn = [&pad](int place) {
+    pad.say(EV_ABS, ABS_RZ, place);
+    pad.say(EV_SYN, SYN_REPORT, 0);
+  };
+  turn(32768);
+  turn(60000);
+  expectNext(*remote, KEY_VOLUMEDOWN, KeyEvent::Action::Press);
+  turn(32768);
+  expectNext(*remote, KEY_VOLUMEDOWN, KeyEvent::Action::Release);
 }
 
 // The words of an Xbox pad, BTN_SOUTH to BTN_THUMBR, and of a keyboard, on a machine of 64 bits.

@@ -70,7 +70,7 @@ void UmockdevMouse::hold(std::uint16_t key, bool down) {
 }
 
 input_absinfo UmockdevMouse::rangeOf(std::size_t axis) const {
-  if (axis == ABS_Y && pedal_ > 0) return {.minimum = 0, .maximum = pedal_};
+  if (const auto own = ranges_.find(axis); own != ranges_.end()) return own->second;
   const bool is_hat = axis == ABS_HAT0X || axis == ABS_HAT0Y, is_trigger = axis == ABS_Z || axis == ABS_RZ;
   const int most = is_hat ? 1 : is_trigger ? 255 : 32767;
   return {.minimum = is_trigger ? 0 : -most, .maximum = most};

@@ -36,8 +36,8 @@ class UmockdevMouse {
   void unplug();
   // Sets the state of a key that the device reports on request.
   void hold(std::uint16_t key, bool down);
-  // Before the device is opened: ABS_Y counts from 0 to `most`, as a wheel's pedal does.
-  void setPedal(int most) { pedal_ = most; }
+  // Before the device is opened: the axis has another range than an Xbox pad's.
+  void setRange(unsigned axis, int least, int most) { ranges_[axis] = {.minimum = least, .maximum = most}; }
   // Another program has grabbed it.
   void letOthersGrab() { others_grab_ = true; }
   [[nodiscard]] bool isGrabbed() const { return grabbed_; }
@@ -55,7 +55,7 @@ class UmockdevMouse {
   std::mutex lock_;
   std::vector<std::uint16_t> held_;
   std::atomic<bool> grabbed_ = false, others_grab_ = false;
-  std::atomic<int> pedal_ = 0;
+  std::map<std::size_t, input_absinfo> ranges_;
   int unknown_ = 0;
   RequestLoop requests_;
 };
