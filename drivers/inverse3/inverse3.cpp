@@ -198,8 +198,8 @@ class Inverse3 final : public HapticDevice {
       const auto snapshot = message->age ? readSnapshot(message->text, id_.text()) : std::nullopt;
       if (!snapshot) continue;
       unlisted_ = snapshot->id.text().empty() ? unlisted_ + 1 : 0;
-      if (snapshot->position_m)
-        newest = News{placeOf(*snapshot->position_m), snapshot->buttons, snapshot->ready, *message->age};
+      const std::uint32_t buttons = TakenArm::several() ? snapshot->own_buttons : snapshot->buttons;
+      if (snapshot->position_m) newest = News{placeOf(*snapshot->position_m), buttons, snapshot->ready, *message->age};
     }
     if (unlisted_ >= kFirmReady) return fail(ErrorCode::Lost, "the Inverse3 was unplugged or switched off");
     return newest;

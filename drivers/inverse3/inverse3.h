@@ -19,7 +19,9 @@ struct Inverse3Config {
 // For the service's versions 3.1 to 3.5, port 10001: a message with a force each tick, an answer with the position.
 // `home` waits until the service says that the device is ready, or until `cancel` or Lost: the encoders are absolute.
 // The force fades in over half a second after `start`, and again after each time that the position was unknown.
-// Buttons: a, b, c of the grip are the bits 0, 1, 2; the service does not say which grip is at which arm.
+// Buttons: a, b, c of the grip are the bits 0, 1, 2. The service does not say which grip is at which arm: of a device
+// alone they are those of any grip; with a second one each has the grip at its arm's place in the service's lists, if
+// these are equally long.
 // Of a service's arms it takes the first that no other device of this process has, and keeps to it when opened again.
 // Safety: the watchdog sends zero 6 ms after the last message with a force, and ends the connection if that cannot be
 // sent; so do `stop`, `close` and the destructor. While no position younger than 6 ms is known, because the answers are

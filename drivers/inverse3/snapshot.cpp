@@ -3,6 +3,7 @@
 #include "drivers/inverse3/snapshot.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "drivers/inverse3/json_cursor.h"
@@ -96,11 +97,28 @@ std::uint32_t readGrip(JsonCursor& json) RELIEVO_RT {
   return connected ? down : 0;
 }
 
+// What is listed, in its order: nothing in a message says which grip is at which arm.
+struct Lists {
+  std::size_t arms = 0, chosen = 0;  // `chosen` counts from 1
+  std::array<std::uint32_t, 8> grips{};
+  std::size_t grip_count = 0;
+  void add(std::uint32_t buttons) RELIEVO_RT {
+    if (grip_count < grips.size()) grips[grip_count] = buttons;
+    ++grip_count;
+  }
+  [[nodiscard]] std::uint32_t ownButtons(std::uint32_t otherwise) const RELIEVO_RT {
+    const bool paired = chosen > 0 && arms == grip_count && arms <= grips.size();
+    return paired ? grips[chosen - 1] : otherwise;
+  }
+};
+
 // `place` counts down to the device that is asked for, if its name is not given.
-void take(const Arm& arm, std::string_view wanted, int& place, Snapshot& to) RELIEVO_RT {
+void take(const Arm& arm, std::string_view wanted, int& place, Snapshot& to, Lists& lists) RELIEVO_RT {
+  ++lists.arms;
   to.from_3_5 = to.from_3_5 || arm.from_3_5;
   const bool good = !arm.id.text().empty() && to.id.text().empty();
   if (!good || (wanted.empty() ? place-- > 0 : arm.id.text() != wanted)) return;
+  lists.chosen = lists.arms;
   to.id = arm.id;
   to.position_m = arm.position_m;
   to.small = arm.small;
@@ -119,6 +137,7 @@ DeviceId::DeviceId(std::string_view text) RELIEVO_RT {
 std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wanted, int place) RELIEVO_RT {
   JsonCursor json(text);
   Snapshot snapshot;
+  Lists lists;
   if (!json.isObject()) return std::nullopt;
   bool strange = false, known = false;
   json.object([&](std::string_view key) RELIEVO_RT {
@@ -126,9 +145,13 @@ std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wan
     (grip || key == "inverse3" || key == "session_id" ? known : strange) = true;
     if (key == "inverse3") {
       snapshot.of_3_0 = snapshot.of_3_0 || json.isObject();
-      json.array([&]() RELIEVO_RT { take(readArm(json), wanted, place, snapshot); });
+      json.array([&]() RELIEVO_RT { take(readArm(json), wanted, place, snapshot, lists); });
     } else if (grip) {
-      json.array([&]() RELIEVO_RT { snapshot.buttons |= readGrip(json); });
+      json.array([&]() RELIEVO_RT {
+        const std::uint32_t buttons = readGrip(json);
+        snapshot.buttons |= buttons;
+        lists.add(buttons);
+      });
     } else {
       snapshot.from_3_5 = snapshot.from_3_5 || key == "session_id";
       json.skip();
@@ -136,6 +159,7 @@ std::optional<Snapshot> readSnapshot(std::string_view text, std::string_view wan
   });
   if (!json.atEnd()) return std::nullopt;
   snapshot.known = known || !strange;
+  snapshot.own_buttons = lists.ownButtons(snapshot.buttons);
   return snapshot;
 }
 

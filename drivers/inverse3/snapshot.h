@@ -34,6 +34,7 @@ struct Snapshot {
   bool small = false;                    // a Minverse; known from messages with the configuration, such as the first
   bool powered = true, ready = true;     // unless the service says otherwise
   std::uint32_t buttons = 0;             // of any grip: a, b, c are the bits 0, 1, 2
+  std::uint32_t own_buttons = 0;  // of the grip at this arm's place, if as many grips as arms are listed; else any
 };
 
 // Empty unless `text` is one whole JSON object. `wanted`: the device asked for; empty: the one at `place`, from 0.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <mutex>
 
 #include "drivers/inverse3/snapshot.h"
@@ -29,18 +30,24 @@ class TakenArm {
     if (has(arm.text()) != taken_.end() || place == taken_.end()) return false;
     *place = arm;
     arm_ = &*place;
+    ++count_;
     return true;
   }
   void letGo() noexcept {
     const std::lock_guard guard(lock_);
-    if (arm_ != nullptr) *arm_ = {};
+    if (arm_ == nullptr) return;
+    *arm_ = {};
     arm_ = nullptr;
+    --count_;
   }
+  // Whether another finger has an arm as well.
+  [[nodiscard]] static bool several() RELIEVO_RT { return count_.load(std::memory_order_relaxed) > 1; }
 
  private:
   static inline std::mutex lock_;
   static inline std::array<DeviceId, 8> taken_;
-  DeviceId* arm_ = nullptr;  // in `taken_`
+  static inline std::atomic<int> count_ = 0;  // of `taken_`
+  DeviceId* arm_ = nullptr;                   // in `taken_`
 };
 
 }  // namespace relievo::inverse3

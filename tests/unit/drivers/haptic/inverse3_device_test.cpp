@@ -187,6 +187,25 @@ TEST_P(Inverse3Device, AnArmIsOneFingerAlone) {
   EXPECT_TRUE(other.device->open());
 }
 
+// The emulator lists a wired grip before a wireless one, and the other's arm before its own.
+TEST_P(Inverse3Device, OfTwoFingersEachHasTheGripAtItsArmsPlace) {
+  ASSERT_TRUE(bench.bringUp());
+  Bench other(GetParam());
+  other.service.listed_before = bench.service.id;
+  other.service.id = "04BA";
+  ASSERT_TRUE(other.bringUp());
+  const auto buttons = [&] {
+    EXPECT_TRUE(other.tick());
+    return other.tick()->buttons;
+  };
+  other.service.wired_button = true;
+  EXPECT_EQ(buttons(), 0U) << "the other finger's";
+  other.service.button_b = true;
+  EXPECT_EQ(buttons(), 2U);
+  bench.device->close();
+  EXPECT_EQ(buttons(), 3U) << "a finger alone has any grip";
+}
+
 TEST(Inverse3Versions, AnotherVersionIsRefused) {
   Bench bench(Version::V9);
   const auto opened = bench.device->open();

@@ -54,6 +54,22 @@ TEST(Inverse3Snapshot, AGripThatIsGoneHasNoButtonDown) {
   }
 }
 
+// Wired grips and wireless ones are one list; one that is gone keeps its place.
+TEST(Inverse3Snapshot, OfAsManyGripsAsArmsEachArmHasTheOneAtItsPlace) {
+  const std::string arms = R"("inverse3":[{"device_id":"A"},{"device_id":"B"}])";
+  const std::string grips = R"("wireless_verse_grip":[{"device_id":"G","state":{"buttons":{"b":true}}},)"
+                            R"({"device_id":"H","state":{"buttons":{"c":true}}}])";
+  const std::string third = R"("verse_grip":[{"device_id":"I","state":{"button":true}}])";
+  for (const std::string& text : {"{" + arms + "," + grips + "}", "{" + grips + "," + arms + "}"}) {
+    EXPECT_EQ(readSnapshot(text, "A")->own_buttons, 2U);
+    EXPECT_EQ(readSnapshot(text, "", 1)->own_buttons, 4U);
+    EXPECT_EQ(readSnapshot(text, "A")->buttons, 6U);
+    EXPECT_EQ(readSnapshot(text, "C")->own_buttons, 6U) << "an arm that is not listed";
+  }
+  EXPECT_EQ(readSnapshot("{" + arms + "," + third + "}", "B")->own_buttons, 1U) << "of both";
+  EXPECT_EQ(readSnapshot("{" + arms + "," + third + "," + grips + "}", "B")->own_buttons, 7U);
+}
+
 TEST(Inverse3Snapshot, TheDeviceThatWasAskedForIsRead) {
   const std::string two =
       R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":0.1,"y":0,"z":0}}},)"
