@@ -2,6 +2,8 @@
 // An effect is uploaded when its level changes, played when it is not silent, and stopped when it is.
 #include "drivers/gamepad/effect_player.h"
 
+#include <type_traits>
+
 namespace relievo {
 namespace {
 
@@ -83,11 +85,13 @@ Result<void> EffectPlayer::bring(Slot<Level>& slot, const Level& level, Monotoni
     slot.playing = !stopped;
     return stopped;
   }
-  if (level != slot.in_device) {
+  constexpr Duration kEvery = std::is_same_v<Level, RumbleLevel> ? kRumbleEvery : Duration(0);
+  if (level != slot.in_device && (!slot.playing || now - slot.changed >= kEvery)) {
     ff_effect effect = effectOf(level);
     effect.id = slot.id;
     if (auto taken = port_.upload(effect); !taken) return std::unexpected(taken.error());
     slot.in_device = level;
+    slot.changed = now;
   }
   if (slot.playing && now - slot.played < kPlayAgain) return {};
   auto played = port_.send(static_cast<std::uint16_t>(slot.id), 1);

@@ -21,6 +21,10 @@ class EffectPlayer final : private CyclicTask {
   static constexpr Duration kPeriod = std::chrono::milliseconds(4);
   static constexpr Duration kWatchdog = std::chrono::milliseconds(20);
   static constexpr Duration kPlayAgain = std::chrono::milliseconds(500);  // an effect ends after kEffectMs
+  // While it plays, a rumble gets another level only after this time: a Switch pad's driver sends one in 25 ms and
+  // queues eight, and older kernels' may leave the motors on once that queue has overflowed. It begins and ends at
+  // once.
+  static constexpr Duration kRumbleEvery = std::chrono::milliseconds(32);
 
   EffectPlayer(PadPort& port, Clock& clock) : port_(port), clock_(clock), thread_(clock) {}
 
@@ -50,7 +54,7 @@ class EffectPlayer final : private CyclicTask {
     std::int16_t id = -1;  // not made
     Level in_device;
     bool playing = false;
-    MonotonicTime played;
+    MonotonicTime played, changed;
   };
 
   LoopControl loop(const Cycle& cycle) RELIEVO_RT override;

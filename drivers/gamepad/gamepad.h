@@ -23,9 +23,9 @@ struct GamepadConfig {
 // surface (see pad_finger.h). The first button of a joystick or a wheel is its main one (bit 0), the second its clutch
 // (bit 1); a gamepad's are keys (drivers/evdev/pad_keys.h).
 //
-// Uploading an effect may block, so a thread of its own does it, every 4 ms. It stops all effects when no force comes
-// for 20 ms. A wheel's own centring is off while the device runs; since the kernel cannot report its previous strength,
-// it is set to full strength at the end.
+// Uploading an effect may block, so a thread of its own does it, every 4 ms (see EffectPlayer). It stops all effects
+// when no force comes for 20 ms. A wheel's own centring is off while the device runs; since the kernel cannot report
+// its previous strength, it is set to full strength at the end.
 [[nodiscard]] std::unique_ptr<HapticDevice> makeGamepad(std::unique_ptr<PadPort> port, Clock& clock,
                                                         const GamepadConfig& config = {});
 // `path`: see makeEvdevPadPort.

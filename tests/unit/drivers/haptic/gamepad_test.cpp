@@ -212,6 +212,24 @@ TEST_F(GamepadTest, ALevelThatStaysIsUploadedOnceAndPlayedAgainBeforeItEnds) {
   EXPECT_EQ(pad_->effects[0].plays, 4) << "at 0, 500, 1000 and 1500 ms";
 }
 
+// Pads over Bluetooth take no more: hid-nintendo's queue of eight packets overflows otherwise.
+TEST_F(GamepadTest, ARumbleThatChangesIsUploadedThirtyTimesASecondButBeginsAndEndsAtOnce) {
+  run(test::xboxPad());
+  for (int contact = 0; contact < 3; ++contact) {
+    const int before = pad_->uploads;
+    push({0, 0, 2});
+    EXPECT_TRUE(pad_->pushes());
+    for (int i = 0; i < 320; ++i) {
+      push({0, 0, 2 + std::sin(0.05 * i)});
+      const double strong = pad_->playing(FF_RUMBLE)->u.rumble.strong_magnitude / 65535.0;
+      ASSERT_NEAR(strong, (2 + std::sin(0.05 * (i - 16))) / 4, 0.21) << i << ": of 32 ms ago at most";
+    }
+    EXPECT_LE(pad_->uploads - before, 12);
+    push({0, 0, 0});
+    EXPECT_FALSE(pad_->pushes());
+  }
+}
+
 TEST_F(GamepadTest, AWheelsCentringIsOffWhileItRunsAndFullAfterwards) {
   run(test::wheel());
   EXPECT_EQ(pad_->centring, 0);
