@@ -64,6 +64,22 @@ void lookAcross(const HeightField& field, Across& found) {
   });
 }
 
+// How far apart the steps are, on average: q/g on a slope g. Infinite where there are none.
+double terraceMm(const HeightField& field) {
+  std::size_t across = 0, down = 0, places = 0;
+  Lattice::forPlaces(field, [&](int c, int r) {
+    const double here = field.heightMm(c, r), below = field.heightMm(c, std::min(r + 1, field.rows() - 1));
+    const double right = field.heightMm(c + 1, r);
+    if (std::isnan(here + below + right)) return;
+    ++places;
+    across += std::abs(right - here) > kRoundingMm ? 1 : 0;
+    down += std::abs(below - here) > kRoundingMm ? 1 : 0;
+  });
+  const double steps_per_mm = std::hypot(static_cast<double>(across) * field.grid().u_per_mm,
+                                         static_cast<double>(down) * field.grid().v_per_mm);
+  return static_cast<double>(places) / steps_per_mm;
+}
+
 void lookAhead(const TimedSurface& from, const TimedSurface& to, std::vector<double>& speeds, bool& still) {
   const double period = toSeconds(to.time - from.time);
   Lattice::forPlaces(from.field, [&](int c, int r) {
@@ -108,7 +124,7 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.quantum_mm = stretch * quantum;
   m.noise_mm = stretch * noise;
   m.waves_mm = wavesOf(frames, stepsUnderNoise(m), m.noise_mm, m.still);
-  m.swells_mm = swellsOf(frames, m.noise_mm, m.still);
+  m.swells_mm = swellsOf(frames, stepsUnderNoise(m), terraceMm(frames.front().field), m.noise_mm, m.still);
   m.speed_mm_per_s =
       std::max(quantile(speeds, 0.95) - (m.noise_mm * kNoiseAsMotion + m.quantum_mm) / std::max(m.period_s, 1e-3), 0.0);
   return m;

@@ -108,13 +108,16 @@ double wavesOf(std::span<const TimedSurface> frames, double block_mm, double ste
   return std::sqrt(most2);
 }
 
-template <std::size_t kSizes>
+// `stepOf`: what counts as a step for blocks of a size.
+template <std::size_t kSizes, class StepOf>
 std::array<double, kSizes> ofSizes(const std::array<double, kSizes>& blocks_mm, std::span<const TimedSurface> frames,
-                                   double step_mm, double noise_mm, bool still, double times_the_noise) {
+                                   StepOf&& stepOf, double noise_mm, bool still, double times_the_noise) {
   std::array<double, kSizes> waves{};
   if (frames.empty()) return waves;
   const double of_mean = noise_mm / std::sqrt(still ? 1.0 : static_cast<double>(frames.size()));
-  for (std::size_t k = 0; k < kSizes; ++k) waves[k] = wavesOf(frames, blocks_mm[k], step_mm, of_mean, times_the_noise);
+  for (std::size_t k = 0; k < kSizes; ++k) {
+    waves[k] = wavesOf(frames, blocks_mm[k], stepOf(blocks_mm[k]), of_mean, times_the_noise);
+  }
   return waves;
 }
 
@@ -131,11 +134,12 @@ double flattened(double width_mm, std::span<const double> blocks_mm, std::span<c
 }  // namespace
 
 Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still) {
-  return ofSizes(kWaveBlocksMm, frames, step_mm, noise_mm, still, kTimesTheNoise);
+  return ofSizes(kWaveBlocksMm, frames, [=](double) { return step_mm; }, noise_mm, still, kTimesTheNoise);
 }
 
-Swells swellsOf(std::span<const TimedSurface> frames, double noise_mm, bool still) {
-  return ofSizes(kSwellBlocksMm, frames, 0, noise_mm, still, 1);
+Swells swellsOf(std::span<const TimedSurface> frames, double step_mm, double terrace_mm, double noise_mm, bool still) {
+  const auto step = [=](double block_mm) { return terrace_mm > block_mm ? step_mm : 0; };
+  return ofSizes(kSwellBlocksMm, frames, step, noise_mm, still, 1);
 }
 
 bool grow(const Waves& waves, double step_mm) {

@@ -27,8 +27,10 @@ using Swells = std::array<double, kSwellBlocksMm.size()>;
 // of each frame for each size.
 [[nodiscard]] Waves wavesOf(std::span<const TimedSurface> frames, double step_mm, double noise_mm, bool still);
 
-// The same for the larger blocks, with what codes make of it, and less only what noise makes on average.
-[[nodiscard]] Swells swellsOf(std::span<const TimedSurface> frames, double noise_mm, bool still);
+// The same for the larger blocks, less only what noise makes on average. What codes may have made counts unless the
+// steps are farther apart than the blocks, `terrace_mm` on average: a narrower terrace is averaged away by a block.
+[[nodiscard]] Swells swellsOf(std::span<const TimedSurface> frames, double step_mm, double terrace_mm, double noise_mm,
+                              bool still);
 
 [[nodiscard]] inline double greatest(const Waves& waves) {
   return *std::max_element(waves.begin() + 1, waves.end());

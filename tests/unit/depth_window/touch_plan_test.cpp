@@ -188,6 +188,18 @@ TEST(TouchPlan, SwellsThatABroadLevelWouldFlattenForbidIt) {
   EXPECT_EQ(planFor(8, 2, true, 0.6, 14).scale.broad_mm, 0);
 }
 
+// The terraces of a shallow slope, 15.7 and 5.2 mm wide, are no swells: a broad level is there to remove them.
+TEST(TouchPlan, TerracesForbidNoBroadLevel) {
+  for (const double slope : {0.01, 0.03}) {
+    const Frame frame = makeGrayFrame(720, 486, 8, {}, [&](int c, int r) {
+      const GridMapping grid(kVolume, 720, 486);
+      return (20 + slope * (0.8 * grid.x(c) + 0.6 * grid.y(r))) / 40 * 255 + 0.5;
+    });
+    const TimedSurface alone{HeightField::make(frame, {.bits = 8}, kVolume).value(), {}, frame.owner};
+    EXPECT_GT(planTouch(measureClip(std::span(&alone, 1))).scale.broad_mm, 0) << slope;
+  }
+}
+
 TEST(TouchPlan, NoiseDithersTheStepsAway) {
   ClipMeasure m{.frames = 4, .quantum_mm = 40.0 / 255, .noise_mm = 0.4, .sample_mm = 0.22, .period_s = kPeriod};
   const double noisy = planTouch(m).scale.wide_mm;
