@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "drivers/v4l2/annex_b.h"
-#include "drivers/v4l2/control.h"
 #include "drivers/v4l2/m2m_buffers.h"
 #include "drivers/v4l2/m2m_node.h"
 #include "drivers/v4l2/m2m_picture_queue.h"
@@ -28,6 +27,9 @@ constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
 // How long the driver may do nothing while it has work; the first time it may have to load firmware.
 constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::seconds(1);
 constexpr Duration kTurn = std::chrono::milliseconds(20);
+// A driver that tells no format after that is asked for it: see `tellsNothing`.
+constexpr Duration kUntoldFor = std::chrono::milliseconds(100);
+constexpr std::size_t kUntoldPackets = 32;
 constexpr Duration kNap = std::chrono::milliseconds(1);  // after poll(2) announced something and there was nothing
 
 constexpr const char* kHangs = "the video hardware stopped responding";
@@ -58,9 +60,7 @@ class M2mDecoder final : public VideoDecoder {
     stream_ = stream;
     if (stream_.frame_period <= Duration(0)) stream_.frame_period = kDefaultPeriod;
     device_ = std::move(*device);
-    v4l2_event_subscription wanted{};
-    wanted.type = V4L2_EVENT_SOURCE_CHANGE;
-    tells_changes_ = control(fd(), VIDIOC_SUBSCRIBE_EVENT, &wanted) == 0;
+    tells_changes_ = subscribeChanges(fd());
     auto packets = M2mBuffers::make(device_->fd, device_->node.packetQueue(), kPackets);
     if (!packets) return std::unexpected(packets.error());
     packets_ = std::move(*packets);
@@ -126,10 +126,8 @@ class M2mDecoder final : public VideoDecoder {
 
   // Handles the driver's events and finished packets, and sets up pictures when a format change is due.
   Result<void> serve() {
-    for (v4l2_event event{}; tells_changes_ && control(fd(), VIDIOC_DQEVENT, &event) == 0;) {
-      const bool changed =
-          event.type == V4L2_EVENT_SOURCE_CHANGE && (event.u.src_change.changes & V4L2_EVENT_SRC_CH_RESOLUTION) != 0;
-      change_due_ = change_due_ || changed;
+    while (const auto changes = tells_changes_ ? nextEvent(fd()) : std::nullopt) {
+      change_due_ = change_due_ || *changes;
       progressed();
     }
     M2mBuffers::Done done;
@@ -139,16 +137,25 @@ class M2mDecoder final : public VideoDecoder {
       progressed();
     }
     if (isFatal(error)) return outcomeOf(error);
-    const bool first = !pictures_.running() && begun_ && (change_due_ || !tells_changes_);
-    const bool change = pictures_.running() && change_due_ && stopped_;
+    const bool first = !pictures_.running() && begun_ && (change_due_ || tellsNothing());
+    const bool change = pictures_.running() && change_due_ && (stopped_ || assumed_);
     return first || change ? setUpPictures() : Result<void>{};
   }
 
+  // True if the driver has had time to tell the pictures' format and has not. Some tell none that is as in `open`
+  // (bcm2835-codec), none at the beginning (s5p-mfc), or wait for the buffers of pictures (older venus).
+  // "Initialization" lets the client set these up beforehand.
+  [[nodiscard]] bool tellsNothing() const noexcept {
+    const bool took_all = draining_ && packets_->withDevice() == 0;
+    return !tells_changes_ || took_all || idle_ >= kUntoldFor || unanswered_.size() >= kUntoldPackets;
+  }
+
   Result<void> setUpPictures() {
+    const bool assumed = !change_due_;
     auto made = pictures_.setUp(*device_, stream_);
-    if (!made && !tells_changes_ && made.error().code == ErrorCode::Io)
-      return {};  // the driver may not know the format yet
+    if (!made && assumed && made.error().code == ErrorCode::Io) return {};  // the driver may not know the format yet
     if (!made) return made;
+    assumed_ = assumed;
     change_due_ = stopped_ = drain_told_ = false;
     progressed();
     return {};
@@ -171,6 +178,7 @@ class M2mDecoder final : public VideoDecoder {
       frame.pts = packet->pts;
       frame.duration = stream_.frame_period;
       given_any_ = true;
+      assumed_ = false;
       return true;
     }
   }
@@ -197,10 +205,7 @@ class M2mDecoder final : public VideoDecoder {
   }
   // The result is ignored: if the driver is busy with an earlier command or does not know this one, `wait` times out.
   void tellDrain() {
-    if (std::exchange(drain_told_, true)) return;
-    v4l2_decoder_cmd stop{};
-    stop.cmd = V4L2_DEC_CMD_STOP;
-    control(fd(), VIDIOC_DECODER_CMD, &stop);
+    if (!std::exchange(drain_told_, true)) static_cast<void>(command(fd(), V4L2_DEC_CMD_STOP));
   }
   // The remaining packets will yield no pictures.
   Progress endOfStream() {
@@ -210,9 +215,7 @@ class M2mDecoder final : public VideoDecoder {
   // Continues after an end-of-stream mark inside the stream.
   Result<void> resume() {
     stopped_ = false;
-    v4l2_decoder_cmd go_on{};
-    go_on.cmd = V4L2_DEC_CMD_START;
-    return outcomeOf(control(fd(), VIDIOC_DECODER_CMD, &go_on) < 0 ? errno : 0);
+    return outcomeOf(command(fd(), V4L2_DEC_CMD_START));
   }
 
   // "Seek", on both queues at once.
@@ -280,6 +283,7 @@ class M2mDecoder final : public VideoDecoder {
   bool begun_ = false;  // a packet was fed
   LeadingPictures leading_;
   bool change_due_ = false;  // the pictures' format changes
+  bool assumed_ = false;     // it was not told, and no picture has come yet: there is none to wait for at a change
   bool stopped_ = false;     // the last picture before a change or of a drain has come
   bool draining_ = false, drain_told_ = false;
   bool given_any_ = false;

@@ -182,6 +182,24 @@ Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<Co
   return found;
 }
 
+int command(int fd, std::uint32_t command) noexcept {
+  v4l2_decoder_cmd asked{};
+  asked.cmd = command;
+  return control(fd, VIDIOC_DECODER_CMD, &asked) < 0 ? errno : 0;
+}
+
+bool subscribeChanges(int fd) noexcept {
+  v4l2_event_subscription wanted{};
+  wanted.type = V4L2_EVENT_SOURCE_CHANGE;
+  return control(fd, VIDIOC_SUBSCRIBE_EVENT, &wanted) == 0;
+}
+
+std::optional<bool> nextEvent(int fd) noexcept {
+  v4l2_event event{};
+  if (control(fd, VIDIOC_DQEVENT, &event) < 0) return std::nullopt;
+  return event.type == V4L2_EVENT_SOURCE_CHANGE && (event.u.src_change.changes & V4L2_EVENT_SRC_CH_RESOLUTION) != 0;
+}
+
 }  // namespace relievo::v4l2
 
 namespace relievo {

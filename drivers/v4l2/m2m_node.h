@@ -38,4 +38,11 @@ struct M2mDevice {
 // Unsupported: it cannot decode such pictures, or they are too large. Io: it is busy.
 [[nodiscard]] Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile);
 
+// A V4L2_DEC_CMD. Returns 0 or errno.
+[[nodiscard]] int command(int fd, std::uint32_t command) noexcept;
+// Asks for the events of a change of the pictures' format. False if the driver has none.
+[[nodiscard]] bool subscribeChanges(int fd) noexcept;
+// Takes the next event: whether it tells a change of the resolution. nullopt if there is none.
+[[nodiscard]] std::optional<bool> nextEvent(int fd) noexcept;
+
 }  // namespace relievo::v4l2

@@ -66,10 +66,6 @@ class V4l2M2m : public test::MockedMachine {
     EXPECT_TRUE(opened) << opened.error().message;
     return decoder;
   }
-  static ErrorCode refusal(const Film& film) {
-    const auto opened = makeV4l2M2mDecoder()->open(film.stream);
-    return opened ? ErrorCode::InvalidState : opened.error().code;
-  }
 
  private:
   static inline std::optional<test::TemporaryFolder> clip_;
@@ -227,55 +223,6 @@ TEST_F(V4l2M2m, AnyNumberOfPicturesMayBeHeldAndTheDriverNeverStarves) {
   decoder->close();
   EXPECT_GE(::fcntl(first.dma_bufs[0].fd, F_GETFD), 0);
   for (const Frame& frame : held) EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1);
-}
-
-TEST_F(V4l2M2m, WhatItCannotDecodeItRefusesBeforehand) {
-  EXPECT_EQ(refusal(Film(clip())), ErrorCode::NotFound) << "no hardware";
-  test::ClipTrack fine = movingClip();
-  fine.pix_fmt = "yuv420p10le";
-  test::ClipTrack colourful = movingClip();
-  colourful.pix_fmt = "yuv444p";
-  test::ClipTrack gray = movingClip();
-  gray.pix_fmt = "gray";
-  {
-    UmockdevCodec codec(bed_, 10, {.largest = 128});
-    EXPECT_EQ(refusal(Film(makeClip("fine.mkv", fine))), ErrorCode::Unsupported);
-    EXPECT_EQ(refusal(Film(makeClip("colourful.mkv", colourful))), ErrorCode::Unsupported);
-    EXPECT_EQ(refusal(Film(makeClip("gray.mkv", gray))), ErrorCode::Unsupported);
-    EXPECT_EQ(refusal(Film(makeClip("wide.mkv", movingClip(160, 64)))), ErrorCode::Unsupported);
-    EXPECT_EQ(refusal(Film(makeClip("lossless.mkv", {}))), ErrorCode::Unsupported) << "another codec";
-    fine.codec = "libx265";
-    fine.options = {{"x265-params", "log-level=none"}};
-    EXPECT_EQ(refusal(Film(makeClip("hevc10.mkv", fine))), ErrorCode::NotFound) << "none of this codec";
-    EXPECT_EQ(codec.openings(), 0);
-  }
-  UmockdevCodec codec(bed_, 10, {.main_profile_only = true});
-  EXPECT_EQ(refusal(Film(clip())), ErrorCode::Unsupported) << "High";
-  test::ClipTrack main = movingClip();
-  main.options = {{"profile", "main"}};
-  const Film film(makeClip("main.mkv", main));
-  EXPECT_EQ(play(*open(film), film), bySoftware(film));
-}
-
-TEST_F(V4l2M2m, NodesAreListedByTheirNumbers) {
-  EXPECT_TRUE(lookAtV4l2M2mNodes().empty());
-  UmockdevCodec second(bed_, 11, {.packets = V4L2_PIX_FMT_HEVC, .planes = true}), first(bed_, 2);
-  const auto nodes = lookAtV4l2M2mNodes();
-  ASSERT_EQ(nodes.size(), 2u);
-  EXPECT_EQ(nodes[0].path, "/dev/video2");
-  EXPECT_EQ(nodes[0].card, "A decoder that is not there");
-  EXPECT_EQ(nodes[0].codecs, std::vector<std::string>{"h264"});
-  EXPECT_EQ(nodes[1].path, "/dev/video11");
-  EXPECT_EQ(nodes[1].codecs, std::vector<std::string>{"hevc"});
-}
-
-TEST_F(V4l2M2m, ABusyNodeLeavesTheFilmToTheNextOne) {
-  UmockdevCodec codec(bed_, 10), other(bed_, 11);
-  const Film film(clip());
-  const auto first = open(film), second = open(film);
-  EXPECT_EQ(other.openings(), 1);
-  EXPECT_EQ(refusal(film), ErrorCode::Io);
-  EXPECT_EQ(play(*first, film), play(*second, film));
 }
 
 TEST_F(V4l2M2m, AHungDriverIsFoundOutAndAGoneOneToo) {

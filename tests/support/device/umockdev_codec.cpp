@@ -272,8 +272,11 @@ int UmockdevCodec::setFormat(v4l2_format& format) {
   const bool packets = isPackets(format.type);
   if (!(packets ? packet_offsets_ : picture_offsets_).empty()) return EBUSY;
   if (packets) {
-    packet_bytes_ = wholePages(kind_.planes ? format.fmt.pix_mp.plane_fmt[0].sizeimage : format.fmt.pix.sizeimage);
+    const auto& one = format.fmt.pix;
+    const auto& several = format.fmt.pix_mp;
+    packet_bytes_ = wholePages(kind_.planes ? several.plane_fmt[0].sizeimage : one.sizeimage);
     size_ = kUntold;
+    if (kind_.silent) size_ = kind_.planes ? Size{several.width, several.height} : Size{one.width, one.height};
   }
   fillFormat(format);
   return 0;

@@ -12,7 +12,7 @@ extern "C" {
 namespace relievo::test {
 
 void UmockdevCodec::work() {
-  if (!library_ || !packets_run_) return;
+  if (!library_ || !packets_run_ || (kind_.waits && !pictures_run_)) return;
   while (!hung_ && (deliver() || decodeOne())) {
     if (hangs_left_ == 0 || given_ < hang_after_) continue;
     --hangs_left_;
@@ -58,7 +58,7 @@ void UmockdevCodec::giveLast() {
 
 // Only once the earlier pictures are out.
 bool UmockdevCodec::decodeOne() {
-  if (!library_->pictures.empty() || packets_.empty() || last_given_) return false;
+  if (library_->pictures.size() > kind_.ahead || packets_.empty() || last_given_) return false;
   const Packet packet = packets_.front();
   packets_.pop_front();
   const bool good = library_->feed(memory_ + packet_offsets_[packet.index], packet.bytes, packet.tag);
