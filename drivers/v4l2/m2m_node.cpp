@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "drivers/v4l2/control.h"
+#include "drivers/v4l2/m2m_picture.h"
 
 namespace relievo::v4l2 {
 namespace {
@@ -82,12 +83,25 @@ void visitNodes(Visit&& visit) {
   }
 }
 
-// True also if the driver does not report its sizes.
-bool takesSize(int fd, std::uint32_t fourcc, int width, int height) noexcept {
+// Why the driver does not take pictures of this size; null also if it does not report its sizes.
+const char* refusalOfSize(int fd, std::uint32_t fourcc, int width, int height) noexcept {
   v4l2_frmsizeenum sizes{.index = 0, .pixel_format = fourcc};
-  if (control(fd, VIDIOC_ENUM_FRAMESIZES, &sizes) < 0 || sizes.type == V4L2_FRMSIZE_TYPE_DISCRETE) return true;
-  return static_cast<std::uint32_t>(width) <= sizes.stepwise.max_width &&
-         static_cast<std::uint32_t>(height) <= sizes.stepwise.max_height;
+  if (control(fd, VIDIOC_ENUM_FRAMESIZES, &sizes) < 0 || sizes.type == V4L2_FRMSIZE_TYPE_DISCRETE) return nullptr;
+  const auto across = static_cast<std::uint32_t>(width), down = static_cast<std::uint32_t>(height);
+  const v4l2_frmsize_stepwise& range = sizes.stepwise;
+  if (across > range.max_width || down > range.max_height) return "the pictures are too large for the video hardware";
+  if (across < range.min_width || down < range.min_height) return "the pictures are too small for the video hardware";
+  return nullptr;
+}
+
+// False if the driver lists formats of pictures and none of them can be read, such as tiles. The packets' format is
+// set.
+bool givesReadable(int fd, std::uint32_t queue) noexcept {
+  v4l2_fmtdesc each{.index = 0, .type = queue};
+  for (; control(fd, VIDIOC_ENUM_FMT, &each) == 0; ++each.index) {
+    if (isPictureFormat(each.pixelformat)) return true;
+  }
+  return each.index == 0;
 }
 
 // The kernel's menu items for profiles.
@@ -167,12 +181,14 @@ Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<Co
     const M2mNode& node = device.node;
     const int fd = device.fd->get();
     if (std::find(node.codecs.begin(), node.codecs.end(), stream.codec) == node.codecs.end()) return true;
-    if (!takesSize(fd, *fourcc, stream.width, stream.height)) {
-      found = fail(ErrorCode::Unsupported, "the pictures are too large for the video hardware");
+    if (const char* const refusal = refusalOfSize(fd, *fourcc, stream.width, stream.height)) {
+      found = fail(ErrorCode::Unsupported, refusal);
     } else if (profile && (!profile->plain || !takesProfile(fd, stream.codec, profile->profile))) {
       found = fail(ErrorCode::Unsupported, "the video hardware decodes only 8-bit 4:2:0 of common profiles");
     } else if (auto set = setPacketFormat(node, fd, stream, *fourcc); !set) {
       found = std::unexpected(set.error());
+    } else if (!givesReadable(fd, node.pictureQueue())) {
+      found = fail(ErrorCode::Unsupported, kUnreadable);
     } else {
       found = std::move(device);
       return false;

@@ -35,7 +35,7 @@ struct M2mDevice {
   std::shared_ptr<const UniqueFd> fd;
 };
 // Opens the first free node that decodes the stream, and sets its packet format. NotFound: none decodes this codec.
-// Unsupported: it cannot decode such pictures, or they are too large. Io: it is busy.
+// Unsupported: it cannot decode such pictures, or not of this size, or in no format that can be read. Io: it is busy.
 [[nodiscard]] Result<M2mDevice> openM2mDevice(const StreamInfo& stream, const std::optional<CodingProfile>& profile);
 
 // A V4L2_DEC_CMD. Returns 0 or errno.

@@ -15,6 +15,8 @@
 
 namespace relievo::v4l2 {
 
+inline constexpr const char* kUnreadable = "the video hardware's picture format is not supported";
+
 // True if pictures of this fourcc can be read.
 [[nodiscard]] bool isPictureFormat(std::uint32_t fourcc) noexcept;
 

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::uint32_t kPlayersHold = 12;   // pictures for the player, beyond those that the driver needs
 constexpr std::uint32_t kUsualPictures = 8;  // that the driver needs, if it does not report the number
-constexpr const char* kUnreadable = "the video hardware's picture format is not supported";
 
 // The object behind Frame::owner: a held buffer, which is returned on the thread that drops the last reference.
 struct HeldPicture {

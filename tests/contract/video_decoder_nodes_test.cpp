@@ -88,6 +88,11 @@ TEST_F(V4l2Nodes, WhatItCannotDecodeItRefusesBeforehand) {
     EXPECT_EQ(refusal(film("hevc10.mkv", fine)), ErrorCode::NotFound) << "none of this codec";
     EXPECT_EQ(codec.openings(), 0);
   }
+  for (const CodecKind& kind : {CodecKind{.smallest = 80}, CodecKind{.pictures = V4L2_PIX_FMT_NV12_4L4}}) {
+    UmockdevCodec codec(bed_, 10, kind), other(bed_, 11);
+    EXPECT_EQ(open(film())->description(), "v4l2-m2m, A decoder that is not there at /dev/video11");
+    EXPECT_EQ(codec.openings(), 0) << "it takes larger pictures alone, or gives tiles";
+  }
   UmockdevCodec codec(bed_, 10, {.main_profile_only = true});
   EXPECT_EQ(refusal(film()), ErrorCode::Unsupported) << "High";
   test::ClipTrack main = movingTrack();

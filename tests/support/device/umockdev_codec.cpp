@@ -122,7 +122,7 @@ int UmockdevCodec::answerTo(unsigned long request, UMockdevIoctlData* data) {
       auto& sizes = *static_cast<v4l2_frmsizeenum*>(argument);
       if (sizes.index > 0) return EINVAL;
       sizes.type = V4L2_FRMSIZE_TYPE_CONTINUOUS;
-      sizes.stepwise = {16, kind_.largest, 1, 16, kind_.largest, 1};
+      sizes.stepwise = {kind_.smallest, kind_.largest, 1, kind_.smallest, kind_.largest, 1};
       return 0;
     }
     case VIDIOC_QUERYCTRL: {

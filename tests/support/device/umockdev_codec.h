@@ -20,16 +20,16 @@ namespace relievo::test {
 
 struct CodecKind {
   std::uint32_t packets = V4L2_PIX_FMT_H264;
-  std::uint32_t pictures = V4L2_PIX_FMT_NV12;  // or YUV420; with `planes` NV12M
-  bool planes = false;                         // the multi-planar interface
-  bool exports = false;                        // dma-bufs, valid only in this process
-  std::uint32_t needed = 4;                    // buffers of pictures
-  std::uint32_t row_padding = 0;               // bytes
-  std::uint32_t largest = 4096;                // pixels, across and down
-  bool main_profile_only = false;              // of H.264
-  bool silent = false;                         // tells no size that is the one of the packets' format, as bcm2835-codec
-  bool waits = false;                          // decodes nothing before the buffers of pictures run, as older venus
-  std::size_t ahead = 0;                       // pictures that it decodes before it has buffers for them
+  std::uint32_t pictures = V4L2_PIX_FMT_NV12;   // or YUV420; with `planes` NV12M
+  bool planes = false;                          // the multi-planar interface
+  bool exports = false;                         // dma-bufs, valid only in this process
+  std::uint32_t needed = 4;                     // buffers of pictures
+  std::uint32_t row_padding = 0;                // bytes
+  std::uint32_t smallest = 16, largest = 4096;  // pixels, across and down
+  bool main_profile_only = false;               // of H.264
+  bool silent = false;    // tells no size that is the one of the packets' format, as bcm2835-codec
+  bool waits = false;     // decodes nothing before the buffers of pictures run, as older venus
+  std::size_t ahead = 0;  // pictures that it decodes before it has buffers for them
 };
 
 struct CodecLibrary;
