@@ -55,7 +55,7 @@ class GstreamerDecoder final : public VideoDecoder {
     coding_ = codingOf(stream);
     if (coding_ == nullptr) return fail(ErrorCode::Unsupported, "GStreamer is not used for this codec");
     if (auto loaded = load(); !loaded) return loaded;
-    auto factories = decodersFor(*coding_, wanted_);
+    auto factories = decodersFor(*coding_, stream.bits, wanted_);
     if (!factories) return std::unexpected(factories.error());
     stream_ = stream;
     inside_most_ = kUsuallyInside;

@@ -3,6 +3,7 @@
 #include "drivers/gstreamer/elements.h"
 
 #include <glob.h>
+#include <gst/video/video.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,8 @@ namespace {
 constexpr const char* kUnknown =
     "there is no such GStreamer element here; gst-inspect-1.0 lists those that are installed";
 constexpr const char* kOtherCodec = "that GStreamer element does not take this codec; name another one";
+constexpr const char* kFewerBits =
+    "that GStreamer element gives pictures of fewer bits than the film's; name another one";
 
 // V4L2 and its request API, DRM and VA-API, Rockchip, NVIDIA, Amlogic.
 constexpr std::array kNodes{"/dev/media[0-9]*",  "/dev/video[0-9]*",  "/dev/dri/renderD*",
@@ -41,6 +44,35 @@ bool takes(GstElementFactory& factory, const Coding& coding) {
   return gst_element_factory_can_sink_any_caps(&factory, caps.get()) == TRUE;
 }
 
+// Whether a description of formats, which is a name, a list of names, or null for all, holds one of so many bits.
+bool hasBits(const GValue* formats, int bits) {
+  if (formats != nullptr && G_VALUE_HOLDS_STRING(formats)) {
+    const auto format = gst_video_format_from_string(g_value_get_string(formats));
+    const GstVideoFormatInfo* const info = gst_video_format_get_info(format);
+    return info == nullptr || static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(info, 0)) >= bits;
+  }
+  if (formats == nullptr || !GST_VALUE_HOLDS_LIST(formats)) return true;
+  for (guint i = 0; i < gst_value_list_get_size(formats); ++i) {
+    if (hasBits(gst_value_list_get_value(formats, i), bits)) return true;
+  }
+  return false;
+}
+
+// False if the element names its formats and all have fewer bits.
+bool givesBits(GstElementFactory& factory, int bits) {
+  for (const GList* each = gst_element_factory_get_static_pad_templates(&factory); each != nullptr; each = each->next) {
+    auto* const pad = static_cast<GstStaticPadTemplate*>(each->data);
+    if (pad->direction != GST_PAD_SRC) continue;
+    const CapsPtr caps(gst_static_pad_template_get_caps(pad));
+    bool some = gst_caps_is_any(caps.get()) == TRUE;
+    for (guint i = 0; i < gst_caps_get_size(caps.get()); ++i) {
+      some = some || hasBits(gst_structure_get_value(gst_caps_get_structure(caps.get(), i), "format"), bits);
+    }
+    if (!some) return false;
+  }
+  return true;
+}
+
 Result<void> loadOnce() {
   gst_segtrap_set_enabled(FALSE);  // fatal signals have handlers already
   if (gst_init_check(nullptr, nullptr, nullptr) == TRUE) return {};
@@ -59,17 +91,20 @@ bool isHardware(GstElementFactory& factory) noexcept {
   return kind != nullptr && std::strstr(kind, "Hardware") != nullptr;
 }
 
-Result<std::vector<FactoryPtr>> decodersFor(const Coding& coding, const std::string& element) {
+Result<std::vector<FactoryPtr>> decodersFor(const Coding& coding, int bits, const std::string& element) {
   std::vector<FactoryPtr> found;
   if (!element.empty()) {
     found.emplace_back(gst_element_factory_find(element.c_str()));
     if (!found.front()) return fail(ErrorCode::Unsupported, kUnknown);
     if (!takes(*found.front(), coding)) return fail(ErrorCode::Unsupported, kOtherCodec);
+    if (!givesBits(*found.front(), bits)) return fail(ErrorCode::Unsupported, kFewerBits);
     return found;
   }
   found = hardware();
   std::erase_if(found, [&](const FactoryPtr& each) { return !takes(*each, coding); });
   if (found.empty()) return fail(ErrorCode::NotFound, "GStreamer has no hardware element for this codec");
+  std::erase_if(found, [&](const FactoryPtr& each) { return !givesBits(*each, bits); });
+  if (found.empty()) return fail(ErrorCode::Unsupported, "GStreamer's hardware gives pictures of fewer bits");
   return found;
 }
 

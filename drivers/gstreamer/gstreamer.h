@@ -13,7 +13,8 @@ namespace relievo {
 // Decodes H.264, HEVC, VP8, VP9, AV1 and MPEG-2 by a pipeline of a parser, a decoder and an end of its own. Without
 // `element` the decoder is the hardware element of the highest rank that starts (GST_PLUGIN_FEATURE_RANK changes
 // ranks); with it, that element, which may be software. `open` fails without one: NotFound if there is no hardware
-// element for the codec, Unsupported if `element` is unknown or takes another codec, Io if no element starts.
+// element for the codec, Unsupported if `element` is unknown, takes another codec, or gives fewer bits than the stream
+// has, Io if no element starts.
 //
 // Frames refer to the element's own buffers, with dma-bufs if its memory is made of them. While the caller holds many
 // pictures of a hardware element, whose buffers are few, they are copies. Held frames stay valid whatever happens to

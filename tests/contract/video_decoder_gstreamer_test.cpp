@@ -74,10 +74,6 @@ class Gstreamer : public testing::Test {
     EXPECT_TRUE(opened) << opened.error().message;
     return decoder;
   }
-  static ErrorCode refusal(const Film& film, const std::string& element = "") {
-    const auto opened = makeGstreamerDecoder(element)->open(film.stream);
-    return opened ? ErrorCode::InvalidState : opened.error().code;
-  }
 
  private:
   static inline std::optional<test::TemporaryFolder> clip_;
@@ -212,23 +208,6 @@ TEST_F(Gstreamer, DmaBufsAreKeptAndBeyondTheElementsBuffersPicturesAreCopies) {
   EXPECT_TRUE(std::equal(row.begin(), row.begin() + 50, first.planes[1].data)) << "the same samples by the descriptor";
   decoder->close();
   for (const Frame& frame : held) EXPECT_EQ(std::count(software.begin(), software.end(), shownOf(frame)), 1);
-}
-
-TEST_F(Gstreamer, WhatItCannotDecodeItRefusesBeforehand) {
-  GstreamerElement element;
-  const Film film(clip());
-  EXPECT_EQ(refusal(Film(makeClip("8.mkv", movingClip("libvpx")))), ErrorCode::NotFound) << "no such hardware";
-  EXPECT_EQ(refusal(Film(makeClip("lossless.mkv", {}))), ErrorCode::Unsupported) << "another codec";
-  EXPECT_EQ(refusal(film, "nosuchelement"), ErrorCode::Unsupported);
-  EXPECT_EQ(refusal(film, "avdec_vp8"), ErrorCode::Unsupported);
-  EXPECT_EQ(element.instances(), 0);
-  const auto decoder = open(film);
-  EXPECT_EQ(decoder->description(), std::string("gstreamer, ") + GstreamerElement::kName);
-  EXPECT_TRUE(decoder->capabilities().hardware);
-  const auto seen = lookAtGstreamerElements();
-  ASSERT_FALSE(seen.empty());
-  EXPECT_EQ(seen.front().name, GstreamerElement::kName);
-  EXPECT_EQ(seen.front().title, "a decoder that is not there");
 }
 
 TEST_F(Gstreamer, AHungElementIsFoundOutAndAFailingAndAGoneOneToo) {

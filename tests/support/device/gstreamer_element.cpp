@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdlib>
 #include <mutex>
@@ -56,7 +57,11 @@ GstPadProbeReturn onPicture(GstPad* pad, GstPadProbeInfo* info, gpointer) {
   std::unique_lock lock(all.mutex);
   GstElement* const element = GST_PAD_PARENT(pad);
   if (g_object_get_data(G_OBJECT(element), "befallen") != nullptr) return GST_PAD_PROBE_DROP;
-  if (all.times > 0 && all.pictures >= all.after) {
+  const bool befalls = all.times > 0 && all.pictures >= all.after;
+  if (befalls && all.fault == GstreamerElement::Fault::Pauses) {
+    --all.times;
+    all.released.wait_for(lock, std::chrono::milliseconds(1200), [&] { return all.release; });
+  } else if (befalls) {
     --all.times;
     g_object_set_data(G_OBJECT(element), "befallen", &all);
     switch (all.fault) {
@@ -71,6 +76,7 @@ GstPadProbeReturn onPicture(GstPad* pad, GstPadProbeInfo* info, gpointer) {
       case GstreamerElement::Fault::IsGone:
         GST_ELEMENT_ERROR(element, RESOURCE, NOT_FOUND, ("a test's lost device"), (nullptr));
         break;
+      case GstreamerElement::Fault::Pauses:
       case GstreamerElement::Fault::None:
         break;
     }
@@ -120,11 +126,26 @@ void test_h264_init(TestH264* bin) {
   g_object_weak_ref(G_OBJECT(bin), [](gpointer, GObject*) { --switches().live; }, nullptr);
 }
 
+using TestSoftware = GstBin;
+using TestSoftwareClass = GstBinClass;
+G_DEFINE_TYPE(TestSoftware, test_software, test_h264_get_type())
+
+void test_software_class_init(TestSoftwareClass* type) {
+  gst_element_class_set_static_metadata(GST_ELEMENT_CLASS(type), "a decoder in software", "Codec/Decoder/Video",
+                                        "FFmpeg's, with faults", "relievo");
+  static GstStaticPadTemplate source =
+      GST_STATIC_PAD_TEMPLATE("src", GST_PAD_SRC, GST_PAD_ALWAYS, GST_STATIC_CAPS("video/x-raw, format={NV12, I420}"));
+  gst_element_class_add_static_pad_template(GST_ELEMENT_CLASS(type), &source);
+}
+void test_software_init(TestSoftware*) {}
+
 }  // namespace
 
 GstreamerElement::GstreamerElement() {
   gst_init(nullptr, nullptr);
-  static const bool once = gst_element_register(nullptr, kName, GST_RANK_PRIMARY + 1000, test_h264_get_type()) == TRUE;
+  static const bool once =
+      gst_element_register(nullptr, kName, GST_RANK_PRIMARY + 1000, test_h264_get_type()) == TRUE &&
+      gst_element_register(nullptr, kSoftware, GST_RANK_NONE, test_software_get_type()) == TRUE;
   if (!once) std::abort();
   const std::lock_guard lock(switches().mutex);
   switches().times = switches().instances = 0;
