@@ -26,6 +26,8 @@ constexpr std::uint64_t kFarthest = 16;  // pictures by which H.264 and HEVC may
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
 // How long the element may do nothing while it has work; the first time it may have to start its device.
 constexpr Duration kPatience = std::chrono::milliseconds(400), kFirstPatience = std::chrono::milliseconds(800);
+// An element in software shares the processors with whatever else runs; a picture takes it many times as long then.
+constexpr Duration kSoftwarePatience = std::chrono::seconds(5);
 constexpr Duration kTurn = std::chrono::milliseconds(20), kHungry = std::chrono::milliseconds(60);
 // GStreamer's times cannot be negative; media times can, slightly.
 constexpr Duration kTimeOffset = std::chrono::hours(1000);
@@ -161,7 +163,8 @@ class GstreamerDecoder final : public VideoDecoder {
 
   // Each wait counts at most two turns, so that a stalled machine does not time the element out.
   Result<void> wait(Duration& idle) {
-    if (idle >= (given_any_ ? kPatience : kFirstPatience)) {
+    const Duration patience = given_any_ ? kPatience : kFirstPatience;
+    if (idle >= (isHardwareElement() ? patience : kSoftwarePatience)) {
       pipeline_->abandon();
       return fail(ErrorCode::Lost, kHangs);
     }

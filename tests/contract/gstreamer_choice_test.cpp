@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of GStreamer's elements decodes a film.
+// Which of GStreamer's elements decodes a film, and how long it may take.
 #include <string>
 #include <utility>
 
@@ -11,8 +11,11 @@
 namespace relievo {
 namespace {
 
+using test::bySoftware;
 using test::Film;
 using test::GstreamerElement;
+using test::play;
+using Fault = GstreamerElement::Fault;
 
 const bool kPrepared = [] {
   test::keepGstreamerListAt(RELIEVO_BIN_DIR "/../tests/gstreamer.list");
@@ -70,6 +73,18 @@ TEST_F(GstreamerChoice, AnElementThatGivesFewerBitsThanTheFilmHasIsNotTaken) {
     EXPECT_EQ(test::answerOf(opened), taken ? test::Answer() : ErrorCode::Unsupported) << bits;
   }
   EXPECT_TRUE(open(film)) << "the other one names no formats";
+}
+
+// On a busy machine all of its threads may wait for a processor.
+TEST_F(GstreamerChoice, AnElementInSoftwareMayTakeItsTime) {
+  const Film film = this->film();
+  GstreamerElement element;
+  element.befall(Fault::Pauses, 0, 1);
+  EXPECT_EQ(play(*open(film, GstreamerElement::kSoftware), film), bySoftware(film));
+  element.befall(Fault::Pauses, 10, 1);
+  std::vector<test::Shown> shown;
+  const auto hardware = open(film);
+  EXPECT_EQ(test::answerOf(test::feedTo(*hardware, film, 0, film.packets.size(), shown)), ErrorCode::Lost);
 }
 
 }  // namespace
