@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <xf86drm.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "drivers/egl/kms_leftovers.h"
+#include "drivers/egl/kms_objects.h"
+
 namespace relievo::kms {
 namespace {
 
@@ -20,34 +22,6 @@ constexpr const char* kFolder = "/dev/dri";
 constexpr const char* kGone = "the screen was unplugged; checking again every second";
 constexpr const char* kTaken =
     "another program uses this card's screens; end it (sudo systemctl stop display-manager), or use a window";
-
-struct Free {
-  void operator()(drmModeRes* all) const noexcept { drmModeFreeResources(all); }
-  void operator()(drmModePlaneRes* all) const noexcept { drmModeFreePlaneResources(all); }
-  void operator()(drmModeConnector* one) const noexcept { drmModeFreeConnector(one); }
-  void operator()(drmModeEncoder* one) const noexcept { drmModeFreeEncoder(one); }
-  void operator()(drmModePlane* one) const noexcept { drmModeFreePlane(one); }
-  void operator()(drmModeObjectProperties* all) const noexcept { drmModeFreeObjectProperties(all); }
-  void operator()(drmModePropertyRes* one) const noexcept { drmModeFreeProperty(one); }
-  void operator()(drmVersion* one) const noexcept { drmFreeVersion(one); }
-};
-template <class T>
-std::unique_ptr<T, Free> own(T* object) {
-  return std::unique_ptr<T, Free>(object);
-}
-
-struct Property {
-  std::uint32_t id = 0;  // 0: none
-  std::uint64_t value = 0;
-};
-Property propertyOf(int card, std::uint32_t object, std::uint32_t type, const std::string& name) {
-  const auto all = own(drmModeObjectGetProperties(card, object, type));
-  for (std::uint32_t i = 0; all != nullptr && i < all->count_props; ++i) {
-    const auto property = own(drmModeGetProperty(card, all->props[i]));
-    if (property != nullptr && name == property->name) return {property->prop_id, all->prop_values[i]};
-  }
-  return {};
-}
 
 // The CRTCs that can drive a connector, as a bit mask over the card's list.
 std::uint32_t possibleCrtcs(int card, const drmModeConnector& connector) {
@@ -182,6 +156,11 @@ Result<void> Screen::setMode(const drmModeModeInfo& mode, Packing packing, std::
     const std::uint32_t id = propertyOf(card_, plane_, DRM_MODE_OBJECT_PLANE, name).id;
     drmModeAtomicAddProperty(request.get(), plane_, id, value);
   }
+  const int before = drmModeAtomicGetCursor(request.get());
+  const bool left = addLeftovers(card_, {connector_, crtc_, plane_}, *request);
+  auto committed = commit(*request, DRM_MODE_ATOMIC_ALLOW_MODESET);
+  if (committed || !left || committed.error().code != ErrorCode::Io) return committed;
+  drmModeAtomicSetCursor(request.get(), before);  // the card may not take them together
   return commit(*request, DRM_MODE_ATOMIC_ALLOW_MODESET);
 }
 

@@ -37,7 +37,7 @@ class Television {
   }
   [[nodiscard]] DisplaySurface surface() { return display_->beginFrame().value(); }
   [[nodiscard]] Display& display() { return *display_; }
-  [[nodiscard]] const FakeCard& card() const { return card_; }
+  [[nodiscard]] FakeCard& card() { return card_; }
 
  private:
   FakeCard card_;
@@ -173,6 +173,20 @@ TEST(Hdmi3d, TheModeIsSaidInWordsAndSet) {
     EXPECT_EQ(mode.flags & DRM_MODE_FLAG_3D_MASK, flag);
     television.display().close();
     EXPECT_FALSE(television.card().mode()) << "what was there before is given back";
+  }
+}
+
+// A compositor with HDR and a night light, on another virtual terminal.
+TEST(Hdmi3d, WhatAnotherProgramLeftIsUndoneWhereTheCardTakesIt) {
+  for (const bool keeps : {false, true}) {
+    Television television("i915", plainTelevision());
+    television.card().wasUsed(keeps);
+    OPEN_OR_SKIP(television, .width = kHd.width, .height = kHd.height);
+    (void)television.surface();
+    ASSERT_TRUE(television.display().present());
+    EXPECT_EQ(television.card().left().size(), keeps ? 5U : 0U);
+    EXPECT_EQ(television.card().rejected(), keeps ? 1 : 0);
+    EXPECT_EQ(television.card().mode().value().vdisplay, kHd.height);
   }
 }
 

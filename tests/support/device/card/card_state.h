@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "platform/unique_fd.h"
@@ -13,6 +14,7 @@
 namespace relievo::test {
 
 struct CardState {
+  static constexpr std::uint32_t kConnector = 1, kEncoder = 2, kCrtc = 3, kPlane = 4, kPointer = 5;
   std::string path, driver;
   std::vector<drmModeModeInfo> modes;
   UniqueFd events;                                // the other end of what the driver opens
@@ -22,7 +24,9 @@ struct CardState {
   std::optional<drmModeModeInfo> mode;
   std::uint32_t shown = 0;  // a frame buffer
   int rejected = 0;
-  CardPicture drawn;  // by the last swap
+  std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> left;  // by object and property: not 0
+  bool keeps_left = false;                                              // it rejects changes of them
+  CardPicture drawn;                                                    // by the last swap
 };
 // The state of the one fake card; valid while a FakeCard exists.
 [[nodiscard]] CardState& theCard();

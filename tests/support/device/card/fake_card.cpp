@@ -49,6 +49,22 @@ FakeCard::~FakeCard() {
   card.reset();
 }
 
+void FakeCard::wasUsed(bool keep) {
+  card->keeps_left = keep;
+  card->left = {{{CardState::kConnector, "HDR_OUTPUT_METADATA"}, 90},
+                {{CardState::kConnector, "Colorspace"}, 9},
+                {{CardState::kCrtc, "GAMMA_LUT"}, 91},
+                {{CardState::kPointer, "FB_ID"}, 92},
+                {{CardState::kPointer, "CRTC_ID"}, CardState::kCrtc}};
+}
+std::vector<std::string> FakeCard::left() const {
+  std::vector<std::string> names;
+  for (const auto& [property, value] : card->left) {
+    if (value != 0) names.push_back(property.second);
+  }
+  return names;
+}
+
 std::string FakeCard::path() const {
   return card->path;
 }

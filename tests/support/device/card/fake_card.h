@@ -35,6 +35,12 @@ class FakeCard {
   FakeCard(const FakeCard&) = delete;
   FakeCard& operator=(const FakeCard&) = delete;
 
+  // Another program had the screen: HDR, a tint, and a mouse pointer are on. The card may `keep` them: it rejects a
+  // commit that changes them.
+  void wasUsed(bool keep);
+  // The names of what of this is on still.
+  [[nodiscard]] std::vector<std::string> left() const;
+
   [[nodiscard]] std::string path() const;  // for makeKmsDisplay
   // The mode that is set.
   [[nodiscard]] const std::optional<drmModeModeInfo>& mode() const;

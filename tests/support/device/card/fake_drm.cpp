@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of libdrm that the display driver calls: one connector, one CRTC, one plane.
+// The functions of libdrm that the display driver calls: one connector, one CRTC, one plane, and a mouse
+// pointer's.
 #include <drm_fourcc.h>
 #include <unistd.h>
 #include <xf86drm.h>
 #include <xf86drmMode.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -21,8 +23,10 @@ using relievo::test::theCard;
 
 namespace {
 
-constexpr std::uint32_t kConnector = 1, kEncoder = 2, kCrtc = 3, kPlane = 4;
-const std::vector<std::string> kConnectorProperties{"CRTC_ID"}, kCrtcProperties{"MODE_ID", "ACTIVE"},
+constexpr auto kConnector = CardState::kConnector, kEncoder = CardState::kEncoder, kCrtc = CardState::kCrtc,
+               kPlane = CardState::kPlane, kPointer = CardState::kPointer;
+const std::vector<std::string> kConnectorProperties{"CRTC_ID", "HDR_OUTPUT_METADATA", "Colorspace"},
+    kCrtcProperties{"MODE_ID", "ACTIVE", "GAMMA_LUT"},
     kPlaneProperties{"type",  "FB_ID",  "CRTC_ID", "SRC_X",  "SRC_Y", "SRC_W",
                      "SRC_H", "CRTC_X", "CRTC_Y",  "CRTC_W", "CRTC_H"};
 
@@ -49,6 +53,11 @@ int reject(int why) {
   return -1;
 }
 
+std::uint64_t leftAt(std::uint32_t object, const std::string& property) {
+  const auto found = theCard().left.find({object, property});
+  return found == theCard().left.end() ? 0 : found->second;
+}
+
 void completeFlip(std::uint64_t user_data) {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
@@ -63,14 +72,19 @@ void completeFlip(std::uint64_t user_data) {
 }  // namespace
 
 struct _drmModeAtomicReq {
-  std::map<std::pair<std::uint32_t, std::string>, std::uint64_t> values;  // by object and property
+  struct Change {
+    std::pair<std::uint32_t, std::string> property;  // of an object
+    std::uint64_t value;
+  };
+  std::vector<Change> changes;
 };
 
 namespace {
 
 std::optional<std::uint64_t> valueOf(const drmModeAtomicReq& request, std::uint32_t object, const char* name) {
-  const auto found = request.values.find({object, name});
-  return found == request.values.end() ? std::nullopt : std::optional(found->second);
+  const auto is = [&](auto& change) { return change.property == std::pair(object, std::string(name)); };
+  const auto found = std::find_if(request.changes.begin(), request.changes.end(), is);
+  return found == request.changes.end() ? std::nullopt : std::optional(found->value);
 }
 
 // The kernel's check of a plane against its buffer and the mode: with one tall picture the CRTC is as high as both
@@ -88,6 +102,16 @@ bool fits(const drmModeAtomicReq& request, const drmModeModeInfo& mode, const re
          is("CRTC_Y", 0) && is("CRTC_W", width) && is("CRTC_H", height) && is("CRTC_ID", kCrtc) &&
          static_cast<std::uint64_t>(buffer.width) == (halves ? 2 * width : width) &&
          static_cast<std::uint64_t>(buffer.height) == height;
+}
+
+bool takesChangesOfLeft(const drmModeAtomicReq& request) {
+  CardState& card = theCard();
+  for (const auto& [property, value] : request.changes) {
+    if (!card.left.contains(property)) continue;
+    if (card.keeps_left) return false;
+    card.left[property] = value;
+  }
+  return true;
 }
 
 }  // namespace
@@ -151,8 +175,10 @@ void drmModeFreeEncoder(drmModeEncoderPtr /*one*/) {}
 
 drmModePlaneResPtr drmModeGetPlaneResources(int /*card*/) {
   auto* const all = keep<drmModePlaneRes>();
-  all->count_planes = 1;
-  all->planes = one(kPlane);
+  all->count_planes = 2;
+  all->planes = keep<std::uint32_t>(2);
+  all->planes[0] = kPlane;
+  all->planes[1] = kPointer;
   return all;
 }
 void drmModeFreePlaneResources(drmModePlaneResPtr /*all*/) {}
@@ -160,6 +186,7 @@ drmModePlanePtr drmModeGetPlane(int /*card*/, std::uint32_t id) {
   auto* const plane = keep<drmModePlane>();
   plane->plane_id = id;
   plane->possible_crtcs = 1;
+  plane->crtc_id = static_cast<std::uint32_t>(leftAt(id, "CRTC_ID"));
   return plane;
 }
 void drmModeFreePlane(drmModePlanePtr /*one*/) {}
@@ -173,7 +200,9 @@ drmModeObjectPropertiesPtr drmModeObjectGetProperties(int /*card*/, std::uint32_
   all->prop_values = keep<std::uint64_t>(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     all->props[i] = object * 100 + i;
-    all->prop_values[i] = propertiesOf(object)[i] == "type" ? DRM_PLANE_TYPE_PRIMARY : 0;
+    const std::string& name = propertiesOf(object)[i];
+    const std::uint64_t type = object == kPlane ? DRM_PLANE_TYPE_PRIMARY : DRM_PLANE_TYPE_CURSOR;
+    all->prop_values[i] = name == "type" ? type : leftAt(object, name);
   }
   return all;
 }
@@ -229,8 +258,14 @@ void drmModeAtomicFree(drmModeAtomicReqPtr request) {
 }
 int drmModeAtomicAddProperty(drmModeAtomicReqPtr request, std::uint32_t object, std::uint32_t property,
                              std::uint64_t value) {
-  request->values[{object, propertiesOf(object).at(property % 100)}] = value;
+  request->changes.push_back({{object, propertiesOf(object).at(property % 100)}, value});
   return 1;
+}
+int drmModeAtomicGetCursor(const drmModeAtomicReqPtr request) {
+  return static_cast<int>(request->changes.size());
+}
+void drmModeAtomicSetCursor(drmModeAtomicReqPtr request, int cursor) {
+  request->changes.erase(request->changes.begin() + cursor, request->changes.end());
 }
 int drmModeAtomicCommit(int /*card*/, const drmModeAtomicReqPtr request, std::uint32_t flags, void* user_data) {
   CardState& card = theCard();
@@ -240,6 +275,7 @@ int drmModeAtomicCommit(int /*card*/, const drmModeAtomicReqPtr request, std::ui
   if (const auto blob = valueOf(*request, kCrtc, "MODE_ID")) {
     const auto& mode = card.blobs.at(static_cast<std::uint32_t>(*blob));
     if (!fits(*request, mode, picture)) return reject(EINVAL);
+    if (!takesChangesOfLeft(*request)) return reject(EINVAL);
     card.mode = mode;
   }
   if (!card.mode) return reject(EINVAL);
