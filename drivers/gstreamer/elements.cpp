@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hardware elements say so in their class ("Codec/Decoder/Video/Hardware"). One of rank "none" is not chosen.
+// Hardware elements say so in their class ("Codec/Decoder/Video/Hardware"), except for some of makers. One of rank
+// "none" is not chosen.
 #include "drivers/gstreamer/elements.h"
 
 #include <glob.h>
@@ -25,6 +26,9 @@ constexpr const char* kFewerBits =
 // V4L2 and its request API, DRM and VA-API, Rockchip, NVIDIA, Amlogic.
 constexpr std::array kNodes{"/dev/media[0-9]*",  "/dev/video[0-9]*",  "/dev/dri/renderD*",
                             "/dev/mpp_service*", "/dev/nvidia[0-9]*", "/dev/amvideo*"};
+
+// Of Rockchip ("Decoder/Video"), NXP ("Codec/Decoder/Video") and Qualcomm ("Decoder/Video").
+constexpr std::array kMakersElements{"mppvideodec", "vpudec", "qtic2vdec"};
 
 std::vector<FactoryPtr> hardware() {
   constexpr GstElementFactoryListType kDecoders =
@@ -88,7 +92,9 @@ Result<void> load() {
 
 bool isHardware(GstElementFactory& factory) noexcept {
   const char* const kind = gst_element_factory_get_metadata(&factory, GST_ELEMENT_METADATA_KLASS);
-  return kind != nullptr && std::strstr(kind, "Hardware") != nullptr;
+  if (kind != nullptr && std::strstr(kind, "Hardware") != nullptr) return true;
+  const auto is = [&](const char* name) { return std::strcmp(GST_OBJECT_NAME(&factory), name) == 0; };
+  return std::ranges::any_of(kMakersElements, is);
 }
 
 Result<std::vector<FactoryPtr>> decodersFor(const Coding& coding, int bits, const std::string& element) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which of GStreamer's elements decodes a film, and how long it may take.
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -62,6 +63,17 @@ TEST_F(GstreamerChoice, WhatItCannotDecodeItRefusesBeforehand) {
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.front().name, GstreamerElement::kName);
   EXPECT_EQ(seen.front().title, "a decoder that is not there");
+}
+
+TEST_F(GstreamerChoice, HardwareIsWhatSaysSoAndWhatIsKnownOfMakers) {
+  const GstreamerElement element;
+  const Film film = this->film();
+  EXPECT_TRUE(open(film, GstreamerElement::kMakers)->capabilities().hardware);
+  EXPECT_FALSE(open(film, GstreamerElement::kSoftware)->capabilities().hardware);
+  const auto seen = lookAtGstreamerElements();
+  const auto lists = [&](const char* name) { return std::ranges::count(seen, name, &relievo::GstreamerElement::name); };
+  EXPECT_EQ(lists(GstreamerElement::kMakers), 1);
+  EXPECT_EQ(lists(GstreamerElement::kSoftware), 0);
 }
 
 TEST_F(GstreamerChoice, AnElementThatGivesFewerBitsThanTheFilmHasIsNotTaken) {

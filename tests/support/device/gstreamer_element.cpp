@@ -145,7 +145,8 @@ GstreamerElement::GstreamerElement() {
   gst_init(nullptr, nullptr);
   static const bool once =
       gst_element_register(nullptr, kName, GST_RANK_PRIMARY + 1000, test_h264_get_type()) == TRUE &&
-      gst_element_register(nullptr, kSoftware, GST_RANK_NONE, test_software_get_type()) == TRUE;
+      gst_element_register(nullptr, kSoftware, GST_RANK_MARGINAL, test_software_get_type()) == TRUE &&
+      gst_element_register(nullptr, kMakers, GST_RANK_MARGINAL, test_software_get_type()) == TRUE;
   if (!once) std::abort();
   const std::lock_guard lock(switches().mutex);
   switches().times = switches().instances = 0;

@@ -7,7 +7,7 @@
 namespace relievo::test {
 
 // Registers the element "relievotesth264", of a high rank, in this process, a test that wants it alone by rank gets it;
-// and kSoftware, the same in software, of 8 bits.
+// kSoftware, the same in software, of 8 bits; and kMakers, that one by the name of a maker's.
 class GstreamerElement {
  public:
   enum class Fault { None, Hangs, Fails, IsGone, Pauses };  // Pauses: for longer than hardware may
@@ -29,7 +29,7 @@ class GstreamerElement {
   // The instances and pictures in the whole process that still exist.
   [[nodiscard]] int live() const;
 
-  static constexpr const char *kName = "relievotesth264", *kSoftware = "relievotestsoftware";
+  static constexpr const char *kName = "relievotesth264", *kSoftware = "relievotestsoftware", *kMakers = "mppvideodec";
 };
 
 // Lets this process see the machine's elements; their list is kept at `path`, not in the user's home. Before GStreamer
