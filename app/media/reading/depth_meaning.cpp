@@ -128,13 +128,13 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
 }
 
 // Numbers are what their name says, else what is usual in their files. Numbers that begin at 0 are relative disparities
-// if that makes the view nearer below: distances do not begin at 0.
+// if that makes the view nearer below, and doubted as distances: these do not begin at 0.
 DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
                          const CalibrationLayers& layers) {
   const bool usual = namesDisparity(clues.path).value_or(clues.codec == "pfm" && !mayBeMetres(look, count));
   const bool seen = !usual && areRelative(count) && looksLikeDisparity(look, count);
   DepthReading read = readFloats(look, count, usual || seen, layers);
-  read.unsure = seen;
+  read.unsure = seen || (!usual && areRelative(count) && !areFromAfar(look, count));
   return read;
 }
 

@@ -169,13 +169,17 @@ bool saysDisparity(std::string_view path) {
   return false;
 }
 
-bool mayBeMetres(const Frame& depth, const CodeCount& count) {
-  // A stereo camera's disparities reach more pixels, a network's numbers begin at 0.
-  constexpr double kMost = 16, kLeast = 0.1;
-  if (count.share(1, kTop) == 0) return false;
+// A network's numbers begin at 0.
+bool areFromAfar(const Frame& depth, const CodeCount& count) {
+  constexpr double kLeast = 0.1;
   const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
-  const Reach reach = reachOf(count);
-  return value * reach.low >= kLeast && value * reach.high <= kMost;
+  return count.share(1, kTop) > 0 && value * reachOf(count).low >= kLeast;
+}
+
+bool mayBeMetres(const Frame& depth, const CodeCount& count) {
+  constexpr double kMost = 16;  // a stereo camera's disparities reach more pixels
+  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
+  return areFromAfar(depth, count) && value * reachOf(count).high <= kMost;
 }
 
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {

@@ -20,6 +20,9 @@ namespace relievo {
 // True if the numbers may be a room's distances in metres, and are hardly disparities in pixels: all from 0.1 to 16.
 [[nodiscard]] bool mayBeMetres(const Frame& depth, const CodeCount& count);
 
+// True if the smallest number may be a distance in metres: at least 0.1.
+[[nodiscard]] bool areFromAfar(const Frame& depth, const CodeCount& count);
+
 // True if disparities make the picture's lower part clearly nearer than its upper one.
 [[nodiscard]] bool looksLikeDisparity(const Frame& depth, const CodeCount& count);
 

@@ -176,6 +176,18 @@ TEST(FloatReading, NumbersWithoutANameAreDoubtedIfTheyMakeTheFloorFar) {
   EXPECT_THAT(relative.info.reading.doubts, Contains(HasSubstr("unit=1000")));
 }
 
+// A level view, whose numbers tell nothing but that they begin at 0: a network's, in either direction.
+TEST(FloatReading, NumbersThatBeginAt0AreDoubtedAsDistances) {
+  const auto doubtsOf = [](double nearest) {
+    Frame frame = test::makeGrayFrame(kCols, kRows, 16, {},
+                                      [&](int c, int) { return static_cast<int>(nearest * 1e4) + c * 400; });
+    frame.value_per_code = 1e-4;
+    return readMeaning({.codec = "npy", .path = "depth/moon.npy"}, nullptr, frame).value().reading.doubts;
+  };
+  EXPECT_THAT(doubtsOf(0.002), Contains(HasSubstr("law=inverse")));
+  EXPECT_THAT(doubtsOf(0.4), IsEmpty());
+}
+
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("a/Disparity/left/7.tif"), true);
   EXPECT_EQ(namesDisparity("disp0.npy"), true);
