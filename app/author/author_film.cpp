@@ -12,6 +12,7 @@
 #include "app/author/views/estimated_film.h"
 #include "app/author/views/stereo_film.h"
 #include "app/media/pairs/long_wait.h"
+#include "app/media/photo_list.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/log.h"
 
@@ -39,6 +40,16 @@ class StopWatch {
   std::jthread thread_;
 };
 
+Error withoutDepth(const SourceOptions& source, Packing packing, const PairReader::Backends& backends) {
+  const char* line =
+      "no depth in this source; give --depth SOURCE, --packing depth-alone if the picture is depth, or let "
+      "--depth-from guess it";
+  if (photosIn(source, backends.make_source))
+    line = "these are photos that hold their depth or two views each; name one of them";
+  else if (hasTwoViews(packing)) line = "two views without depth; --depth-from stereo makes it from them";
+  return {ErrorCode::NotFound, 0, line};
+}
+
 // Where a film's pairs come from: the reader, with the depth made on the way where the film has none.
 class FilmSupply {
  public:
@@ -58,13 +69,7 @@ class FilmSupply {
       if (!estimated) return std::unexpected(estimated.error());
       estimated_ = std::move(*estimated);
     } else if (!views_ && !info.has_depth) {
-      return failOn(
-          source.url,
-          {ErrorCode::NotFound, 0,
-           hasTwoViews(info.packing)
-               ? "two views without depth; --depth-from stereo makes it from them"
-               : "no depth in this source; give --depth SOURCE, --packing depth-alone if the picture is depth, "
-                 "or let --depth-from guess it"});
+      return failOn(source.url, withoutDepth(source, info.packing, backends));
     }
     return {};
   }

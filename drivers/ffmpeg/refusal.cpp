@@ -217,9 +217,10 @@ Error lateReading(Way way) noexcept {
 
 Error refusal(const Address& address, int code, const std::string& words) {
   if (code == AVERROR_INVALIDDATA && address.way == Way::File && isHeic(localPathOf(address.url))) {
-    return {ErrorCode::Unsupported, 0,
-            "it is a HEIC photo, which this FFmpeg cannot read; with libheif (RELIEVO_HEIF) those with a depth map or "
-            "two views are read; save it as JPEG or PNG"};
+    return {
+        ErrorCode::Unsupported, 0,
+        "this FFmpeg cannot read HEIC photos; libheif (RELIEVO_HEIF) reads those with a depth map or two views; save "
+        "others as JPEG or PNG"};
   }
   if (address.way == Way::File && isTooLargeY4m(localPathOf(address.url)))
     return {ErrorCode::Unsupported, 0, VideoDecoder::kTooLarge};

@@ -13,6 +13,7 @@
 
 #include "app/author/author.h"
 #include "tests/scenario/author/author_film.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
@@ -113,6 +114,19 @@ TEST_F(AuthorFilm, ProgramSaysWhenThereIsNoDepth) {
   EXPECT_EQ(said.exit_code, 1);
   EXPECT_THAT(said.err, HasSubstr("no depth in this source; give --depth SOURCE"));
   EXPECT_TRUE(made().empty());
+}
+
+// Photos of two views side by side, as JPS marks them (VRex, "JPEG stereoscopic").
+TEST_F(AuthorFilm, ProgramAsksForOneOfSeveralPhotosThatHoldMore) {
+  for (const char* const name : {"a.jpg", "b.jpg"}) {
+    makeClip(folder_ / name, {{.codec = "mjpeg", .pix_fmt = "yuvj420p", .width = 64, .height = 32, .frames = 1}});
+    std::string jpeg = test::contentOf(folder_ / name);
+    jpeg.insert(2, std::string("\xff\xe3\0\x10_JPSJPS_\0\4\0\4\2\1", 18));
+    std::ofstream(folder_ / name, std::ios::binary) << jpeg;
+  }
+  const auto said = run("--color '@/*.jpg' -o @/out.mkv");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_THAT(said.err, HasSubstr("these are photos that hold their depth or two views each; name one of them"));
 }
 
 // It would wait for what writes into the pipe, or for the server, in the middle of the work.
