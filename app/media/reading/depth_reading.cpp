@@ -139,11 +139,12 @@ bool isRotated(const CodeCount& count) {
 // end otherwise than in 0 beyond 8.19 m alone, and there they begin again.
 bool hasPlayers(const CodeCount& count) {
   constexpr double kBackground = 0.5, kLeast = 1e-3;
-  constexpr std::uint32_t kFarthest = 8 * 7500;
+  constexpr std::uint32_t kNearest = 8 * 300, kFarthest = 8 * 7500;  // a Kinect sees from 0.4 m on
   const CodeCount all = count.together();
   const double background = all.remainders(8, 0);
-  return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 &&
-         all.reach(kOutliers, 1, kTop).high < kFarthest;
+  const auto reach = all.reach(kOutliers, 1, kTop);
+  return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 && reach.low >= kNearest &&
+         reach.high < kFarthest;
 }
 
 // For heights: the range of codes.

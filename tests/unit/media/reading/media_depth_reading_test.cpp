@@ -86,6 +86,9 @@ TEST(DepthReading, AKinectsPlayersStandBelowItsDistances) {
   const Frame players = picture(0, [](double mm) { return std::floor(mm) * 8 + (mm < 1400 ? 2 : 0); });
   ASSERT_EQ(sensorKind(players, CodeCount(players)), findKind("kinect-players"));
   expectTrue(inOrder(players, SampleOrder::Upper13).value(), 1.01, "mm above a player's number");
+  // Read so, the ball would be 275 mm away, nearer than a Kinect sees.
+  const Frame near = picture(0, [](double mm) { return std::floor(mm / 4) * 8 + (mm < 1400 ? 2 : 0); });
+  EXPECT_EQ(sensorKind(near, CodeCount(near)), findKind("mm"));
   // In SUN RGB-D's coding, the upper bits wrap around beyond 8.19 m.
   const Frame far = picture(0, [](double mm) {
     const auto code = static_cast<std::uint32_t>(5 * mm);
