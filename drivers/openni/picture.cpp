@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "drivers/openni/depth_codec.h"
@@ -80,7 +81,10 @@ void describePictures(const Node& node, StreamInfo& stream) {
   if (!isReadable(node)) return;
   const Format* const format = formatOf(node);
   stream.codec = format != nullptr ? "rawvideo" : "mjpeg";
-  if (format != nullptr) stream.pixel_format = format->name;
+  if (format != nullptr) {
+    stream.pixel_format = format->name;
+    stream.bits = format->name == std::string_view("gray16le") ? 16 : 8;
+  }
   stream.width = static_cast<int>(node.cols);
   stream.height = static_cast<int>(node.rows);
   if (depth) stream.tags.insert({{"DEPTH_UNIT", node.format == kTenthsOfMm ? "0.1" : "1"}, {"DEPTH_INVALID", "0"}});

@@ -133,6 +133,7 @@ class RosbagSource final : public MediaSource {
     stream.kind = chosen ? StreamKind::Video : StreamKind::Other;
     stream.codec = topic.kind.codec;
     stream.pixel_format = topic.kind.pixel_format;
+    if (!stream.pixel_format.empty()) stream.bits = static_cast<int>(8 * topic.kind.sample_bytes);
     stream.width = static_cast<int>(topic.kind.cols);
     stream.height = static_cast<int>(topic.kind.rows);
     stream.tags["TITLE"] = topic.name;

@@ -41,6 +41,7 @@ class DepthBinSource final : public MediaSource {
     stream.kind = StreamKind::Video;
     stream.codec = "rawvideo";
     stream.pixel_format = "gray16le";
+    stream.bits = 16;
     stream.width = DepthBin::kCols;
     stream.height = DepthBin::kRows;
     stream.counted = true;

@@ -92,7 +92,10 @@ void describePictures(const Scan& scan, bool depth, StreamInfo& stream) {
   stream.kind = StreamKind::Video;
   stream.tags["TITLE"] = depth ? "depth" : "color";
   stream.codec = codecOf(coding);
-  if (depth || coding == Coding::Raw) stream.pixel_format = depth ? "gray16le" : "rgb24";
+  if (depth || coding == Coding::Raw) {
+    stream.pixel_format = depth ? "gray16le" : "rgb24";
+    stream.bits = depth ? 16 : 8;
+  }
   stream.width = static_cast<int>(depth ? scan.depth_cols : scan.color_cols);
   stream.height = static_cast<int>(depth ? scan.depth_rows : scan.color_rows);
   if (depth) stream.tags.insert({{"DEPTH_UNIT", print("%.9g", 1000 / scan.codes_per_metre)}, {"DEPTH_INVALID", "0"}});

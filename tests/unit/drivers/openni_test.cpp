@@ -178,6 +178,7 @@ TEST_P(OpenniVariants, HoldsDepthAndColourToTheSample) {
   ASSERT_EQ(source->streams().size(), 3u);
   const StreamInfo depth = streamOf(*source, "depth"), color = streamOf(*source, "color");
   EXPECT_EQ(depth.kind, StreamKind::Video);
+  EXPECT_EQ(depth.bits, 16);
   EXPECT_EQ(streamOf(*source, "infrared").kind, StreamKind::Other);
   EXPECT_EQ(depth.tags.at("DEPTH_UNIT"), "1");
   EXPECT_EQ(depth.tags.at("DEPTH_INVALID"), "0");

@@ -56,6 +56,7 @@ TEST_P(RosbagVariants, HoldsDepthAndColourToTheSample) {
   const StreamInfo* const depth = streamOf(*source, "/camera/depth/image_raw");
   ASSERT_NE(depth, nullptr);
   EXPECT_EQ(depth->kind, StreamKind::Video);
+  EXPECT_EQ(depth->bits, 16);
   EXPECT_EQ(depth->tags.at("DEPTH_UNIT"), "1.000000");
   EXPECT_EQ(depth->tags.at("DEPTH_INVALID"), "0+65535");
   EXPECT_EQ(depth->frame_period, Duration(kPeriod));
