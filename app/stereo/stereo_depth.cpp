@@ -104,8 +104,9 @@ Result<Frame> StereoDepth::depthOf(const Frame& left, const Frame& right) {
   const ShotPlan& shot = plan_.at(left.pts);
   const ViewPicture fixed = readView(left);
   ViewPicture moved = readView(right);
-  const bool black = isBlank(fixed) || isBlank(moved);
-  const bool stays = black && last_ && &plan_.at(last_->pts) == &shot;
+  const bool left_black = isBlank(fixed), right_black = isBlank(moved), black = left_black || right_black;
+  const bool goes_on = last_ && &plan_.at(last_->pts) == &shot;
+  const bool stays = black && last_ && (goes_on || (left_black && right_black));
   if (!stays && shot.has_depth && !black) {
     if (shot.is_balanced) balance(moved, shot.exposure);
     if (shot.is_aligned) moved = aligned(moved, shot.alignment);

@@ -37,8 +37,8 @@ class StereoDepth {
   [[nodiscard]] static DepthCalibration calibration();
   [[nodiscard]] const StereoPlan& plan() const noexcept { return plan_; }
 
-  // As large as the left view, with its time. Call it picture by picture: in a fade to black, the last relief of the
-  // shot stays. Unsupported if the size is not the plan's.
+  // As large as the left view, with its time. Call it picture by picture: in the black of a fade or after a cut, the
+  // last relief stays. Unsupported if the size is not the plan's.
   [[nodiscard]] Result<Frame> depthOf(const Frame& left, const Frame& right);
 
  private:
