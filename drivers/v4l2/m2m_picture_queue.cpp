@@ -3,6 +3,7 @@
 #include "drivers/v4l2/m2m_picture_queue.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,13 +45,19 @@ Result<void> chooseReadable(int fd, v4l2_format& format) noexcept {
   return fail(ErrorCode::Unsupported, kUnreadable);
 }
 
-// VIDIOC_G_SELECTION takes the single-planar type for both interfaces.
-v4l2_rect visiblePart(int fd, const StreamInfo& stream) noexcept {
+// VIDIOC_G_SELECTION takes the single-planar type for both interfaces. A driver without it (meson) may give the coded
+// size, a few samples larger than the container's; a size that is farther from that one is another.
+std::optional<v4l2_rect> visiblePart(int fd, const v4l2_format& format, const StreamInfo& stream) noexcept {
   v4l2_selection part{};
   part.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   part.target = V4L2_SEL_TGT_COMPOSE;
   if (control(fd, VIDIOC_G_SELECTION, &part) == 0) return part.r;
-  return {0, 0, static_cast<std::uint32_t>(stream.width), static_cast<std::uint32_t>(stream.height)};
+  constexpr std::uint32_t kMostPadding = 64;
+  const bool planes = V4L2_TYPE_IS_MULTIPLANAR(format.type);
+  const v4l2_rect told{0, 0, static_cast<std::uint32_t>(stream.width), static_cast<std::uint32_t>(stream.height)};
+  const std::uint32_t across = (planes ? format.fmt.pix_mp.width : format.fmt.pix.width) - told.width;
+  const std::uint32_t down = (planes ? format.fmt.pix_mp.height : format.fmt.pix.height) - told.height;
+  return across < kMostPadding && down < kMostPadding ? std::optional(told) : std::nullopt;
 }
 
 std::uint32_t neededBy(int fd) noexcept {
@@ -68,7 +75,7 @@ Result<void> PictureQueue::setUp(const M2mDevice& device, const StreamInfo& stre
   format.type = device.node.pictureQueue();
   if (control(fd, VIDIOC_G_FMT, &format) < 0) return outcomeOf(errno);
   if (auto readable = chooseReadable(fd, format); !readable) return readable;
-  const auto layout = layoutOf(format, visiblePart(fd, stream), stream);
+  const auto layout = layoutOf(format, visiblePart(fd, format, stream), stream);
   if (!layout) return fail(ErrorCode::Unsupported, kUnreadable);
   layout_ = *layout;
   needed_ = neededBy(fd);

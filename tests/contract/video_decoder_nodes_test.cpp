@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hardware decoders that differ in what they tell and take: which of them a film gets, and that it plays on each.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "drivers/v4l2/v4l2.h"
 #include "tests/contract/decoded_film.h"
@@ -41,6 +45,8 @@ class V4l2Nodes : public test::MockedMachine {
     return opened ? ErrorCode::InvalidState : opened.error().code;
   }
 
+  [[nodiscard]] const test::TemporaryFolder& folder() const { return folder_; }
+
  private:
   const test::TemporaryFolder folder_;
 };
@@ -65,6 +71,25 @@ TEST_F(V4l2Nodes, ADriverThatTellsNoFormatIsAskedForIt) {
       EXPECT_EQ(decoder->damaged(), 0u);
       EXPECT_EQ(codec.openings(), 1);
     }
+  }
+}
+
+// Then the container's size is visible where it is about the driver's, and later the driver's, here without padding.
+TEST_F(V4l2Nodes, ADriverMayNotTellTheVisiblePart) {
+  for (const auto& [width, height, later] : {std::tuple{100, 70, 100}, {64, 48, 160}}) {
+    SCOPED_TRACE(later);
+    const std::string both = folder() / "both.ts";
+    std::filesystem::remove(both);
+    test::ClipTrack track = movingTrack(width, height);
+    for (const char* name : {"a.ts", "b.ts"}) {
+      (void)film(name, track);
+      std::ofstream(both, std::ios::binary | std::ios::app) << std::ifstream(folder() / name).rdbuf();
+      if (later != width) track.width = later, track.height = 2 * height;
+      track.start = std::chrono::seconds(5);
+    }
+    UmockdevCodec codec(bed_, 10, {.selects = false});
+    const Film film(both);
+    EXPECT_EQ(play(*open(film), film), bySoftware(film));
   }
 }
 

@@ -137,6 +137,7 @@ int UmockdevCodec::answerTo(unsigned long request, UMockdevIoctlData* data) {
       fillFormat(*static_cast<v4l2_format*>(argument));
       return 0;
     case VIDIOC_G_SELECTION: {
+      if (!kind_.selects) return ENOTTY;
       auto& part = *static_cast<v4l2_selection*>(argument);
       part.r = {0, 0, size_.width, size_.height};
       return 0;

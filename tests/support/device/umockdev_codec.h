@@ -27,6 +27,7 @@ struct CodecKind {
   std::uint32_t row_padding = 0;                // bytes
   std::uint32_t smallest = 16, largest = 4096;  // pixels, across and down
   bool main_profile_only = false;               // of H.264
+  bool selects = true;                          // tells the visible part
   bool silent = false;    // tells no size that is the one of the packets' format, as bcm2835-codec
   bool waits = false;     // decodes nothing before the buffers of pictures run, as older venus
   std::size_t ahead = 0;  // pictures that it decodes before it has buffers for them
