@@ -207,7 +207,9 @@ class LibusbPort final : public UsbPort {
     libusb_close(handle_);
     handle_ = nullptr;
     if (claimed == LIBUSB_ERROR_BUSY)
-      return fail(ErrorCode::Unsupported, "another program uses the device; close that program");
+      return fail(
+          ErrorCode::Unsupported,
+          "the device is already a finger, or another program uses it; plug in another one, or end that program");
     return failUsb(claimed);
   }
 

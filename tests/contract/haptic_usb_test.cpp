@@ -156,6 +156,16 @@ TEST_P(HapticUsb, TheWatchdogStopsTheMotorsOfATaskThatHangs) {
   }
 }
 
+TEST_P(HapticUsb, ASecondFingerOnItIsRefusedAndTheFirstFeelsOn) {
+  if (test::machineIsMocked()) GTEST_SKIP() << "a mocked kernel lets everyone claim an interface";
+  const auto first = run(), second = bench_.driver_on_libusb(clock_);
+  const auto opened = second->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  EXPECT_NE(std::string(opened.error().message).find("already a finger"), std::string::npos) << opened.error().message;
+  pushUntilFelt(*first);
+}
+
 TEST_P(HapticUsb, AFatalSignalsHandlerStopsTheMotorsWhateverOtherThreadsDo) {
   const auto device = run();
   pushUntilFelt(*device);
