@@ -16,9 +16,9 @@ namespace relievo::ffmpeg {
 namespace {
 
 constexpr std::uint32_t kHeader = 0x1A45DFA3, kSegment = 0x18538067, kCluster = 0x1F43B675, kTags = 0x1254C367;
-constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekPosition = 0x53AC;
+constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekPosition = 0x53AC, kChapters = 0x1043A770;
 constexpr std::string_view kSimpleTag = "\x67\xC8";
-constexpr std::size_t kMostTagBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kMostElements = 1000;  // that are looked at; a film has about ten before its first cluster
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
 
@@ -76,14 +76,15 @@ class Counter {
   }
 
   void note(const Element& element) {
+    if (element.id == kChapters && element.bytes > kMostBytes) tags_ = kMostTags + 1;
     if (element.id == kTags) countTags(element);
     if (element.id == kSeekHead) followSeeks(element);
   }
 
   void countTags(const Element& tags) {
-    std::vector<std::uint8_t> bytes(std::min<std::size_t>(tags.bytes, kMostTagBytes + 1));
+    std::vector<std::uint8_t> bytes(std::min<std::size_t>(tags.bytes, kMostBytes + 1));
     bytes.resize(file_.read(tags.data, bytes).value_or(0));
-    if (bytes.size() > kMostTagBytes) tags_ = kMostTags + 1;
+    if (bytes.size() > kMostBytes) tags_ = kMostTags + 1;
     for (auto at = bytes.begin(); tags_ <= kMostTags; ++tags_, ++at) {
       at = std::search(at, bytes.end(), kSimpleTag.begin(), kSimpleTag.end(),
                        [](std::uint8_t byte, char sought) { return byte == static_cast<std::uint8_t>(sought); });

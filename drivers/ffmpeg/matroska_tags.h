@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Counts the tags of a Matroska file before FFmpeg reads them: its time for them grows with the square of their number.
+// Chapters take it 430 bytes of memory each.
 #pragma once
 
 #include "platform/files/answered_file.h"
@@ -9,8 +10,8 @@ namespace relievo::ffmpeg {
 // 100,000 tags take FFmpeg three minutes, in which nothing can interrupt it; programs write a few for each track.
 inline constexpr int kMostTags = 5000;
 inline constexpr const char* kTooManyTags =
-    "it is a Matroska film with more than 5000 tags, or 1 MiB of them, the most that it may have; convert it without "
-    "them: ffmpeg -i FILE -map 0 -map_metadata -1 -c copy film.mp4";
+    "it is a Matroska film with more than 5000 tags, or 1 MiB of tags or chapters, the most that it may have; convert "
+    "it without them: ffmpeg -i FILE -map 0 -map_metadata -1 -map_chapters -1 -c copy film.mp4";
 
 // Looks where FFmpeg looks: before the first cluster, and where seek heads point to. False for what is no Matroska, and
 // for what cannot be read.
