@@ -3,12 +3,12 @@
 #include <cerrno>
 #include <utility>
 
+#include "drivers/ffmpeg/bounds/png_texts.h"
 #include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/pictures/picture.h"
 #include "drivers/ffmpeg/pictures/picture_memory.h"
-#include "drivers/ffmpeg/pictures/png_texts.h"
 #include "drivers/ffmpeg/views/view_pairs.h"
 
 namespace relievo {

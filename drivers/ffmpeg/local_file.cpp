@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
-#include "drivers/ffmpeg/matroska_tags.h"
-#include "drivers/ffmpeg/pictures/png_texts.h"
+#include "drivers/ffmpeg/bounds/matroska_tags.h"
+#include "drivers/ffmpeg/bounds/png_texts.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/file_system_answer.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/ffmpeg/pictures/png_texts.h"
+#include "drivers/ffmpeg/bounds/png_texts.h"
 
 #include <algorithm>
 #include <array>

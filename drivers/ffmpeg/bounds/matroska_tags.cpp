@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Elements of RFC 8794 and RFC 9559: an id, a size, and as many bytes.
-#include "drivers/ffmpeg/matroska_tags.h"
+#include "drivers/ffmpeg/bounds/matroska_tags.h"
 
 #include <algorithm>
 #include <array>
