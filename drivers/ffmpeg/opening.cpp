@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/opening.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <optional>
@@ -76,7 +77,8 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
 Result<Input::Opened> Opener::open(const std::string& url) {
   const auto input = std::make_shared<Input>();
   watch(input);
-  if (input_->watch().cancelled()) input->watch().cancel();
+  const std::atomic<bool>* const flag = CancelsAnswers::flag();
+  if (input_->watch().cancelled() || (flag != nullptr && *flag)) input->watch().cancel();
   auto opened = openApart(input, url);
   if (opened) {
     input_ = input;
