@@ -97,9 +97,10 @@ void BagFile::addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uin
   chunks.push_back(chunk);
 }
 
-void BagFile::clearConnections() noexcept {
+void BagFile::startOver() noexcept {
   connections_.clear();
   entries_ = 0;
+  unpacked_chunk_.reset();
 }
 
 std::optional<Message> readMessage(const BagFile& bag, const Range& content, const Record& record) {

@@ -63,7 +63,8 @@ class BagFile {
 
   void addConnection(std::uint32_t id, std::string topic, std::string type, bool cdr);
   void addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uint64_t messages);
-  void clearConnections() noexcept;
+  // Forgets the connections, and the content of chunks: they will be numbered anew.
+  void startOver() noexcept;
   [[nodiscard]] std::uint64_t mostUnpacked() const noexcept { return std::min<std::uint64_t>(kMostChunk, budget_); }
   [[nodiscard]] Range inMemory(std::vector<std::uint8_t> plain);
 

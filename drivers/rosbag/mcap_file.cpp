@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 constexpr std::uint8_t kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kMessageIndex = 7,
-                       kChunkIndex = 8, kStatistics = 0xb, kDataEnd = 0xf;
+                       kChunkIndex = 8, kDataEnd = 0xf;
 constexpr std::size_t kHead = 9;            // the kind of a record, and its length
 constexpr std::size_t kMessageHead = 22;    // channel, number, two times
 constexpr std::size_t kLooseMessages = 64;  // outside of chunks, that are taken together
@@ -48,7 +48,7 @@ Result<void> McapFile::readContents(const std::atomic<bool>& cancelled) {
   if (readSummary(cancelled)) return {};
   chunks_.clear();
   schemas_.clear();
-  clearConnections();
+  startOver();
   scan(cancelled);
   return {};
 }
@@ -71,7 +71,7 @@ void McapFile::describe(const Range& range, const Head& head) {
   addConnection(id, std::move(topic), schema->second, cdr);
 }
 
-// False if there is none, or it is damaged, or the messages do not lie in chunks.
+// False if there is none, or it is damaged, or it names no chunks.
 bool McapFile::readSummary(const std::atomic<bool>& cancelled) {
   constexpr std::uint64_t kFooterData = 20;
   constexpr std::uint64_t kEnd = kHead + kFooterData + kMagic.size();
@@ -80,24 +80,26 @@ bool McapFile::readSummary(const std::atomic<bool>& cancelled) {
   if (!footer || footer->op != kFooter || footer->data_bytes != kFooterData) return false;
   const std::vector<std::uint8_t> footer_data = dataOf(file_, *footer);
   const auto summary = ByteReader(footer_data).value<std::uint64_t>();
-  std::vector<std::vector<std::uint8_t>> indices;
-  std::vector<std::uint8_t> statistics;
+  struct Index {
+    std::uint64_t chunk = 0;  // where it begins
+    Head head;
+  };
+  std::vector<Index> indices;
+  const auto chunkOf = [&](const Head& index) {
+    constexpr std::uint64_t kTimes = 2 * sizeof(std::uint64_t);  // the first and the last one
+    std::array<std::uint8_t, sizeof(std::uint64_t)> room;
+    return ByteReader(readAt(file_, index.data_begin + kTimes, room)).value<std::uint64_t>();
+  };
   for (std::uint64_t at = summary; at > 0 && at < footer->begin && !cancelled;) {
     const auto head = headAt(file_, at);
     if (!head || indices.size() >= kMostChunks) return false;
     at = head->end();
     describe(file_, *head);
-    if (head->op == kChunkIndex) indices.push_back(dataOf(file_, *head));
-    if (head->op == kStatistics) statistics = dataOf(file_, *head);
+    if (head->op == kChunkIndex) indices.push_back({chunkOf(*head), *head});
   }
-  const auto beginOf = [](const std::vector<std::uint8_t>& index) {
-    ByteReader reader(index);
-    static_cast<void>(reader.take(2 * sizeof(std::uint64_t)));
-    return reader.value<std::uint64_t>();
-  };
-  std::ranges::sort(indices, {}, beginOf);
-  for (const auto& index : indices) {
-    if (cancelled || !addIndexedChunk(index)) return false;
+  std::ranges::sort(indices, {}, &Index::chunk);
+  for (const Index& index : indices) {
+    if (cancelled || !addIndexedChunk(dataOf(file_, index.head))) return false;
   }
   return !chunks_.empty() && !connections_.empty();
 }

@@ -45,7 +45,7 @@ bool Ros1File::readIndex(const Record& header, const std::atomic<bool>& cancelle
   }
   if (!chunks_.empty() && chunks_.size() == header.chunk_count && !connections_.empty()) return true;
   chunks_.clear();
-  clearConnections();
+  startOver();
   return false;
 }
 

@@ -37,6 +37,7 @@ const auto kMcap = testing::Values(
     mcap("mcap_lz4_without_summary", {.compression = "lz4", .summary = false}),
     mcap("mcap_without_summary", {.summary = false}), mcap("mcap_without_index", {.index = false}),
     mcap("mcap_zstd_without_any", {.compression = "zstd", .summary = false, .index = false}),
+    mcap("mcap_with_damaged_summary", {.index = false, .damaged = true}),
     mcap("mcap_without_chunks", {.chunks = false}), mcap("mcap_without_all", {.chunks = false, .summary = false}));
 INSTANTIATE_TEST_SUITE_P(Ros2, RosbagVariants, kMcap, nameOf);
 INSTANTIATE_TEST_SUITE_P(Ros2, RosbagCutOff, kMcap, nameOf);

@@ -118,7 +118,7 @@ std::string mcapOf(const Ros2Recording& recording, const McapForm& form) {
   std::string file = magic + record(1, ByteWriter().text("ros2").text("test").bytes());
   std::string summary;
   std::vector<bool> introduced(recording.topics.size());
-  std::map<std::uint16_t, std::uint64_t> counts;
+  int chunks = 0;
   for (std::size_t i = 0; i < recording.messages.size();) {
     std::string content;
     std::map<std::uint16_t, ByteWriter> index;
@@ -130,7 +130,6 @@ std::string mcapOf(const Ros2Recording& recording, const McapForm& form) {
       if (!introduced[next.topic]) content += descriptions(recording, next.topic);
       introduced[next.topic] = true;
       index[channel].add(next.time_ns).add(static_cast<std::uint64_t>(content.size()));
-      ++counts[channel];
       content += message(next, static_cast<std::uint32_t>(i));
       last = next.time_ns;
     }
@@ -151,8 +150,10 @@ std::string mcapOf(const Ros2Recording& recording, const McapForm& form) {
       offsets.add(channel).add(static_cast<std::uint64_t>(file.size()));
       file += record(7, ByteWriter().add(channel).text(entries.bytes()).bytes());
     }
+    ++chunks;
+    if (form.damaged && chunks == 1) continue;
     ByteWriter info;
-    info.add(first).add(last).add(begin).add(length).text(offsets.bytes());
+    info.add(first).add(last).add(begin + (form.damaged && chunks > 2 ? 1 : 0)).add(length).text(offsets.bytes());
     info.add(static_cast<std::uint64_t>(file.size()) - begin - length).text(form.compression);
     info.add(static_cast<std::uint64_t>(small.size())).add(static_cast<std::uint64_t>(content.size()));
     summary += record(8, info.bytes());
@@ -165,7 +166,7 @@ std::string mcapOf(const Ros2Recording& recording, const McapForm& form) {
   return file + magic;
 }
 
-std::string db3Of(const Ros2Recording& recording, bool log) {
+std::string db3Of(const Ros2Recording& recording, bool log, const char* last) {
   sqlite3* database = nullptr;
   check(database, sqlite3_open(":memory:", &database));
   const auto run = [&](const char* words) {
@@ -198,6 +199,7 @@ std::string db3Of(const Ros2Recording& recording, bool log) {
   }
   sqlite3_finalize(insert);
   run("COMMIT");
+  run(last);
   sqlite3_int64 size = 0;
   unsigned char* const bytes = sqlite3_serialize(database, "main", &size, 0);
   std::string file(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));

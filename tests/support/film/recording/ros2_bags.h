@@ -47,11 +47,13 @@ struct McapForm {
   bool chunks = true;       // or messages alone
   bool summary = true;      // or as a recorder leaves it that was killed
   bool index = true;        // of messages, behind each chunk
+  bool damaged = false;     // the summary: it lacks the first chunk, and the place of the third one and later is wrong
   std::size_t chunk_messages = 8;
 };
 [[nodiscard]] std::string mcapOf(const Ros2Recording& recording, const McapForm& form);
 // `log`: as of a recorder that kept a log (WAL), which is gone.
-[[nodiscard]] std::string db3Of(const Ros2Recording& recording, bool log = false);
+// `last`: what the database is told at the end.
+[[nodiscard]] std::string db3Of(const Ros2Recording& recording, bool log = false, const char* last = "");
 
 // Four depth pictures of 16 x 12 samples, with a camera's parameters and its place.
 [[nodiscard]] Ros2Recording depthOnRos2();
