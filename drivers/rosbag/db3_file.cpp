@@ -2,6 +2,7 @@
 // Reads the rows of a bag's tables; a message's data is read when it is played.
 #include "drivers/rosbag/db3_file.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -28,7 +29,7 @@ Result<void> Db3File::readContents(const std::atomic<bool>& cancelled) {
   }
   while (rows_.size() < kMostChunks && sqlite3_step(messages.get()) == SQLITE_ROW) {
     const Row row{.id = sqlite3_column_int64(messages.get(), 0),
-                  .time_ns = sqlite3_column_int64(messages.get(), 2),
+                  .time_ns = std::clamp<std::int64_t>(sqlite3_column_int64(messages.get(), 2), 0, kLatestTime.count()),
                   .topic = static_cast<std::uint32_t>(sqlite3_column_int64(messages.get(), 1))};
     addToChunk(row.topic, static_cast<std::uint32_t>(rows_.size()), 1);
     rows_.push_back(row);

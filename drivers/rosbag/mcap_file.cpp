@@ -223,7 +223,7 @@ std::optional<Record> McapFile::messageFrom(const Range& content, std::uint64_t 
     ByteReader reader(readAt(content, head->data_begin, room));
     Record record{.op = Op::Message, .connection = reader.value<std::uint16_t>()};
     static_cast<void>(reader.value<std::uint32_t>());  // a counter
-    record.time = Duration(static_cast<std::int64_t>(reader.value<std::uint64_t>()));
+    record.time = Duration(std::min<std::uint64_t>(reader.value<std::uint64_t>(), kLatestTime.count()));
     record.data_begin = head->data_begin + kMessageHead;
     record.data_bytes = static_cast<std::uint32_t>(head->data_bytes - kMessageHead);
     if (!reader.ok()) return std::nullopt;

@@ -23,6 +23,9 @@ using Bytes = std::span<const std::uint8_t>;
   return std::chrono::seconds(seconds) + Duration(reader.value<std::uint32_t>());
 }
 
+// No stamp is later. Recorded times are kept to it, so that the differences of all times can be told.
+inline constexpr Duration kLatestTime = std::chrono::seconds(0xFFFFFFFF);
+
 // A part of the file, or a chunk that was unpacked into memory.
 struct Range {
   AnsweredFile file;

@@ -2,6 +2,8 @@
 // Bags of ROS 2 that the test writes itself: MCAP in every packing, with and without a summary, and SQLite.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "app/media/registration/registration.h"
 #include "tests/support/film/recording/recorded_frames.h"
 #include "tests/support/film/recording/ros2_bags.h"
@@ -87,6 +89,25 @@ TEST_F(RosbagSource, Ros2PackedPicturesAreRead) {
     if ((*packet)->stream != color.index) continue;
     EXPECT_EQ(std::string((*packet)->data, (*packet)->data + (*packet)->bytes), jpeg);
   }
+}
+
+TEST_F(RosbagSource, Ros2TimesThatNoClockHasAreBounded) {
+  constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min();  // in MCAP behind all
+  constexpr Duration kSecond = std::chrono::seconds(1), kLatest = std::chrono::seconds(0xFFFFFFFF);
+  Ros2Recording ros2;
+  BagImage unstamped = depthImage(0);
+  unstamped.stamp_ns = 0;
+  const auto topic = ros2.connect("/depth/image_raw", "sensor_msgs/msg/Image");
+  const auto lastOf = [&](const std::string& bag) {
+    const auto source = open(bag);
+    MediaTime last{};
+    for (auto packet = source->read(); packet && *packet; packet = source->read()) last = *(*packet)->pts;
+    return last.time_since_epoch();
+  };
+  ros2.write(topic, kSecond.count(), ros2Image(unstamped));
+  ros2.write(topic, kBeforeAll, ros2Image(unstamped));
+  EXPECT_EQ(lastOf(db3Of(ros2)), -kSecond);
+  EXPECT_EQ(lastOf(mcapOf(ros2, {})), kLatest - kSecond);
 }
 
 TEST_F(RosbagSource, ADatabaseOfAnotherProgramIsRefused) {
