@@ -9,6 +9,8 @@
 namespace relievo::rosbag {
 namespace {
 
+constexpr std::uint64_t kMostOthers = 4096;  // messages of a topic without pictures, such as /tf
+
 std::string textOf(const Statement& row, int column) {
   const auto* const text = sqlite3_column_text(row.get(), column);
   return text == nullptr ? "" : reinterpret_cast<const char*>(text);
@@ -28,9 +30,13 @@ Result<void> Db3File::readContents(const std::atomic<bool>& cancelled) {
                     textOf(topics, 2), true);
   }
   while (rows_.size() < kMostChunks && sqlite3_step(messages.get()) == SQLITE_ROW) {
+    any_ = true;
     const Row row{.id = sqlite3_column_int64(messages.get(), 0),
                   .time_ns = std::clamp<std::int64_t>(sqlite3_column_int64(messages.get(), 2), 0, kLatestTime.count()),
                   .topic = static_cast<std::uint32_t>(sqlite3_column_int64(messages.get(), 1))};
+    const auto topic = connections_.find(row.topic);
+    if (topic == connections_.end()) continue;
+    if (topic->second.messages >= kMostOthers && !topic->second.type.ends_with("Image")) continue;
     addToChunk(row.topic, static_cast<std::uint32_t>(rows_.size()), 1);
     rows_.push_back(row);
   }

@@ -12,7 +12,7 @@ namespace relievo::rosbag {
 
 inline constexpr std::string_view kSqliteMagic = "SQLite format 3";
 
-// Each message is a chunk of its own.
+// Each message is a chunk of its own; of topics without pictures only the first ones are.
 class Db3File final : public BagFile {
  public:
   [[nodiscard]] std::optional<Record> messageFrom(const Range& content, std::uint64_t at) const override;
@@ -24,10 +24,11 @@ class Db3File final : public BagFile {
   };
   [[nodiscard]] Result<void> readContents(const std::atomic<bool>& cancelled) override;
   [[nodiscard]] Range unpack(std::uint32_t chunk) override;
-  [[nodiscard]] bool hasChunks() const noexcept override { return !rows_.empty(); }
+  [[nodiscard]] bool hasChunks() const noexcept override { return any_; }
 
   SqliteView view_;
   std::vector<Row> rows_;
+  bool any_ = false;  // there are messages
   Row unpacked_row_;  // of the content that was unpacked last
 };
 

@@ -110,6 +110,13 @@ TEST_F(RosbagSource, Ros2TimesThatNoClockHasAreBounded) {
   EXPECT_EQ(lastOf(mcapOf(ros2, {})), kLatest - kSecond);
 }
 
+TEST_F(RosbagSource, Ros2PicturesBehindAMillionOtherMessagesAreRead) {
+  const auto source = open(db3Of(recording(), false,
+                                 "WITH n(i) AS (VALUES(1) UNION ALL SELECT i + 1 FROM n WHERE i < 1048576) "
+                                 "INSERT INTO messages SELECT -i, 1, 0, x'' FROM n"));
+  EXPECT_NE(streamOf(*source, "/camera/depth/image_raw"), nullptr);
+}
+
 TEST_F(RosbagSource, ADatabaseOfAnotherProgramIsRefused) {
   Ros2Recording empty;
   EXPECT_EQ(openingOf(db3Of(empty)).error().code, ErrorCode::Corrupt);
