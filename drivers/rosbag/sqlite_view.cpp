@@ -103,6 +103,9 @@ Result<void> SqliteView::open(AnsweredFile file, const std::atomic<bool>& cancel
   constexpr int kFlags = SQLITE_OPEN_READONLY | SQLITE_OPEN_NOMUTEX;
   if (!registered_ || sqlite3_open_v2("bag", &database_, kFlags, name_.c_str()) != SQLITE_OK)
     return fail(ErrorCode::Corrupt, "SQLite cannot open the bag");
+  // A query of the file's own that is named like a table need not end.
+  sqlite3_db_config(database_, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
+  sqlite3_db_config(database_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   // A message is read once; SQLite need not keep its pages.
   sqlite3_exec(database_, "PRAGMA cache_size = 8", nullptr, nullptr, nullptr);
   constexpr int kSteps = 1000;  // of SQLite's machine, between looks at the flag

@@ -39,7 +39,7 @@ struct EndStatement {
   void operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
 };
 using Statement = std::unique_ptr<sqlite3_stmt, EndStatement>;
-// Null if the database has no such table or column.
+// Null if the database has no such table or column; views are none.
 [[nodiscard]] Statement prepare(const SqliteView& view, const char* query);
 
 }  // namespace relievo::rosbag

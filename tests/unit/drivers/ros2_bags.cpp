@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags of ROS 2 that the test writes itself: MCAP in every packing, with and without a summary, and SQLite.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -115,6 +116,12 @@ TEST_F(RosbagSource, Ros2PicturesBehindAMillionOtherMessagesAreRead) {
                                  "WITH n(i) AS (VALUES(1) UNION ALL SELECT i + 1 FROM n WHERE i < 1048576) "
                                  "INSERT INTO messages SELECT -i, 1, 0, x'' FROM n"));
   EXPECT_NE(streamOf(*source, "/camera/depth/image_raw"), nullptr);
+}
+
+TEST_F(RosbagSource, ADatabaseWhoseTableIsAQueryIsRefused) {
+  const std::string views =
+      db3Of(recording(), false, "ALTER TABLE messages RENAME TO m; CREATE VIEW messages AS SELECT * FROM m");
+  EXPECT_THAT(openingOf(views).error().message, testing::HasSubstr("it lacks the tables topics and messages"));
 }
 
 TEST_F(RosbagSource, ADatabaseOfAnotherProgramIsRefused) {
