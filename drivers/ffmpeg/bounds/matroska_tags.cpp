@@ -20,6 +20,7 @@ constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekPosition = 
 constexpr std::string_view kSimpleTag = "\x67\xC8";
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kMostElements = 1000;  // that are looked at; a film has about ten before its first cluster
+constexpr std::uint64_t kFarthest = std::uint64_t{1} << 62;  // the kernel refuses to read beyond 2^63
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
 
 struct Element {
@@ -64,7 +65,8 @@ class Counter {
 
   std::optional<Element> elementAt(std::uint64_t place) {
     std::array<std::uint8_t, 12> head{};
-    if (++looked_at_ > kMostElements || file_.read(place, head).value_or(0) < 2) return std::nullopt;
+    if (++looked_at_ > kMostElements || place > kFarthest || file_.read(place, head).value_or(0) < 2)
+      return std::nullopt;
     const std::size_t id_bytes = static_cast<std::size_t>(std::countl_zero(head[0])) + 1;
     if (id_bytes > 4) return std::nullopt;
     const std::size_t size_bytes = static_cast<std::size_t>(std::countl_zero(head[id_bytes])) + 1;
@@ -82,6 +84,9 @@ class Counter {
   }
 
   void countTags(const Element& tags) {
+    // A seek head may point to what was met before the first cluster.
+    if (std::ranges::find(counted_, tags.data) != counted_.end()) return;
+    counted_.push_back(tags.data);
     std::vector<std::uint8_t> bytes(std::min<std::size_t>(tags.bytes, kMostBytes + 1));
     bytes.resize(file_.read(tags.data, bytes).value_or(0));
     if (bytes.size() > kMostBytes) tags_ = kMostTags + 1;
@@ -111,7 +116,7 @@ class Counter {
 
   const AnsweredFile& file_;
   std::uint64_t segment_ = 0;
-  std::vector<std::uint64_t> sought_;
+  std::vector<std::uint64_t> sought_, counted_;
   int looked_at_ = 0, tags_ = 0;
 };
 

@@ -51,6 +51,11 @@ class FilmWithTags : public testing::Test {
                                         behind);
     return folder_ / "more.mkv";
   }
+  // Where the first element that is inserted begins, in the film's own count.
+  [[nodiscard]] std::uint64_t beginOfMore() const {
+    const std::string whole = test::contentOf(path());
+    return whole.find("\x1F\x43\xB6\x75") - segment(whole);
+  }
   // Where an element behind the film begins, in the film's own count, if `before` bytes are inserted.
   [[nodiscard]] std::uint64_t endOf(std::size_t before) const {
     const std::string whole = test::contentOf(path());
@@ -73,6 +78,11 @@ TEST_F(FilmWithTags, MoreThan5000OfMatroskaAreRefusedBeforeFFmpegReadsThem) {
   EXPECT_EQ(openErrorOf(with(element(kTags, std::string(1100000, 'x')))).code, ErrorCode::Unsupported) << "over 1 MiB";
   const std::string edition = element("\x45\xB9", element("\xEC", std::string(1100000, 'x')));
   EXPECT_EQ(openErrorOf(with(element("\x10\x43\xA7\x70", edition))).code, ErrorCode::Unsupported) << "chapters";
+}
+
+TEST_F(FilmWithTags, ThoseThatASeekHeadPointsToAreCountedOnce) {
+  const std::uint64_t place = beginOfMore() + seekTo(0, kTags).size();
+  EXPECT_TRUE(makeFfmpegSource()->open(with(seekTo(place, kTags) + tags(3000))));
 }
 
 TEST_F(FilmWithTags, TheyAreCountedAtTheEndOfTheFileToo) {
