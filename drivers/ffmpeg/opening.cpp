@@ -91,17 +91,21 @@ Result<Input::Opened> Opener::open(const std::string& url) {
 
 void Opener::interrupt() noexcept {
   const std::scoped_lock lock(mutex_);
+  interrupted_ = true;
   watched_->watch().cancel();
 }
 
 void Opener::forgive() {
   input_ = std::make_shared<Input>();
-  watch(input_);
+  const std::scoped_lock lock(mutex_);
+  interrupted_ = false;
+  watched_ = input_;
 }
 
 void Opener::watch(const std::shared_ptr<Input>& input) noexcept {
   const std::scoped_lock lock(mutex_);
   watched_ = input;
+  if (interrupted_) input->watch().cancel();
 }
 
 }  // namespace relievo::ffmpeg

@@ -26,11 +26,13 @@ class Opener {
   void interrupt() noexcept;
 
  private:
+  // `interrupt` ends this one from now on, and at once if it was called before.
   void watch(const std::shared_ptr<Input>& input) noexcept;
 
   std::shared_ptr<Input> input_ = std::make_shared<Input>();
-  std::mutex mutex_;
-  std::shared_ptr<Input> watched_ = input_;  // guarded by the mutex; what `interrupt` ends
+  std::mutex mutex_;                         // guards what follows
+  std::shared_ptr<Input> watched_ = input_;  // what `interrupt` ends
+  bool interrupted_ = false;                 // since `forgive`
 };
 
 }  // namespace relievo::ffmpeg
