@@ -42,15 +42,20 @@ void run(Call& call, const std::string& url) {
   call.ended.notify_one();
 }
 
+// What ends the calling thread's questions ends the opening.
+void passOn(Watch& watch) {
+  const std::atomic<bool>* const flag = CancelsAnswers::flag();
+  if (flag != nullptr && *flag) watch.cancel();
+}
+
 // False: it does not end in time.
 bool hasEnded(Call& call) {
   Watch& watch = call.input->watch();
-  const std::atomic<bool>* const flag = CancelsAnswers::flag();
   std::optional<Steady::time_point> told;
   std::unique_lock lock(call.mutex);
   while (!call.opened && (!told || Steady::now() < *told + kGrace)) {
     call.ended.wait_for(lock, kLook);
-    if (flag != nullptr && *flag) watch.cancel();
+    passOn(watch);
     if (!watch.givesUp()) told.reset();
     else if (!told) told = Steady::now();
   }
@@ -59,6 +64,7 @@ bool hasEnded(Call& call) {
 
 Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::string& url) {
   input->watch().begin(kOpenPatience);
+  passOn(input->watch());  // a short film would be open before the first look
   const auto call = std::make_shared<Call>(input);
   try {
     std::thread([call, url] { run(*call, url); }).detach();
