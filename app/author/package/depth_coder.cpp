@@ -101,19 +101,20 @@ Result<void> DepthCoder::encode(const Frame& depth, DepthPicture& picture) {
 
 std::vector<std::string> DepthCoder::explain() const {
   std::vector<std::string> lines;
+  const double low = outcome_.lowCode(), high = outcome_.highCode();
   if (source_.code != DepthCode::Luma) {
     lines.push_back(print("%s decoded to %d-bit luma, %d %s to %.0f codes", name(source_.code), outcome_.bits,
                           source_.code == DepthCode::Hue ? DepthCalibration::kHueSteps : 256,
-                          source_.code == DepthCode::Hue ? "hues" : "colours", outcome_.highCode()));
+                          source_.code == DepthCode::Hue ? "hues" : "colours", high - low));
   } else if (source_.bits != outcome_.bits) {
-    lines.push_back(print("%d bits rescaled to %d bits: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.bits,
-                          outcome_.bits, source_.lowCode(), source_.highCode(), outcome_.highCode()));
+    lines.push_back(print("%d bits rescaled to %d bits: codes %.0f .. %.0f to %.0f .. %.0f, rounded", source_.bits,
+                          outcome_.bits, source_.lowCode(), source_.highCode(), low, high));
   } else if (source_.codes || source_.unit_mm) {
-    lines.push_back(print("codes %.0f .. %.0f rescaled to 0 .. %.0f, rounded", source_.lowCode(), source_.highCode(),
-                          outcome_.highCode()));
+    lines.push_back(print("codes %.0f .. %.0f rescaled to %.0f .. %.0f, rounded", source_.lowCode(), source_.highCode(),
+                          low, high));
   } else if (source_.range == ColorRange::Limited) {
-    lines.push_back(print("limited range expanded to full: codes %.0f .. %.0f to 0 .. %.0f, rounded", source_.lowCode(),
-                          source_.highCode(), outcome_.highCode()));
+    lines.push_back(print("limited range expanded to full: codes %.0f .. %.0f to %.0f .. %.0f, rounded",
+                          source_.lowCode(), source_.highCode(), low, high));
   }
   if (source_.law != outcome_.law) {
     lines.push_back(

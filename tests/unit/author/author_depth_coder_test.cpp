@@ -184,6 +184,8 @@ TEST(AuthorDepthCoder, SaysWhatItDid) {
   EXPECT_NE(said({.polarity = DepthPolarity::NearIsLow}).find("polarity inverted"), std::string::npos);
   EXPECT_NE(said({.invalid = 3}).find("reserved for holes"), std::string::npos);
   EXPECT_NE(said({.code = DepthCode::Hue}).find("hue decoded"), std::string::npos);
+  const DepthCoder lossy({.bits = 16, .invalid = 0}, {.crf = 8});
+  EXPECT_NE(lossy.explain().at(0).find("codes 0 .. 65535 to 16 .. 255"), std::string::npos) << lossy.explain().at(0);
   EXPECT_NE(DepthCoder({}, {.law = DepthLaw::Inverse}).explain().at(0).find("linear steps converted to inverse"),
             std::string::npos);
 }
