@@ -170,7 +170,7 @@ const char* whyTooFar(const DepthLoss& loss) noexcept {
     return "enhancement moved the relief by over 1 N in the median: leave out --enhance";
   }
   if (exceeds(loss.rounding, kCodes)) {
-    return "its codes are too coarse for the depth (over .3 N in the median, or 1 N at p99): try --depth-bits 10";
+    return "its codes are too coarse for the depth (over .3 N in the median, or 1 N at p99): try more --depth-bits";
   }
   if (exceeds(loss.coding, kCodes)) {
     return "coding moved the relief (by over .3 N in the median or 1 N at p99, or over 5 % to holes or back): try "
@@ -183,9 +183,9 @@ std::string toText(const DepthLoss& loss) {
   if (loss.all.empty()) return "";
   const auto percent = [](double share) { return 100 * share; };
   const std::string text = print("  measured in the film: force off by %.3f N in the median, %.3f N at p99",
-                           loss.all.quantile(0.5), loss.all.quantile(0.99)) +
-                     stepText("enhancing", loss.enhancing) + stepText("rounding", loss.rounding) +
-                     stepText("coding", loss.coding);
+                                 loss.all.quantile(0.5), loss.all.quantile(0.99)) +
+                           stepText("enhancing", loss.enhancing) + stepText("rounding", loss.rounding) +
+                           stepText("coding", loss.coding);
   return text +
          print("\n    holes %.1f %%, in the source %.1f %%; at an end of the range %.1f %%, in the source %.1f %%\n",
                percent(loss.film.holes()), percent(loss.source.holes()), percent(loss.film.ends()),

@@ -178,6 +178,8 @@ TEST_F(AuthorDepthTooFar, AStreamIsNotMeasured) {
   makeClip(folder_ / "color.mkv", {colorTrack()});
   makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int c, int, int) { return static_cast<std::uint32_t>(c); })});
   const auto said = run("--color @/color.mkv --depth @/depth.mkv -o udp://127.0.0.1:9");
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_THAT(said.out, HasSubstr("depth codes"));
   EXPECT_THAT(said.out, Not(HasSubstr("measured in the film")));
 }
 
