@@ -257,10 +257,11 @@ TEST_F(AuthorFilm, OtherPlayersPlayItAsOrdinaryVideo) {
     return process.wait();
   };
   const auto isThere = [&](const std::string& program) { return shell("command -v " + program) == 0; };
-  // The other program may hang for its own reasons, so one retry.
+  // The other program may hang for its own reasons, so one retry. On a busy machine it takes many times
+  // as long as alone.
   const auto plays = [&](const std::string& command) {
     constexpr int kTimedOut = 124;
-    const std::string bounded = "timeout 20 " + command + " </dev/null";
+    const std::string bounded = "timeout 60 " + command + " </dev/null";
     const int code = shell(bounded);
     return (code == kTimedOut ? shell(bounded) : code) == 0;
   };
