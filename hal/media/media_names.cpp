@@ -21,6 +21,11 @@ bool isDigit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
+// As unsigned: a char has a sign on x86 and none on ARM, where scripts beyond ASCII would come first and last.
+unsigned char byteOf(std::string_view text) noexcept {
+  return static_cast<unsigned char>(text.front());
+}
+
 // The run of digits at the beginning, without leading zeros.
 std::string_view numberOf(std::string_view text) noexcept {
   const auto end = std::find_if_not(text.begin(), text.end(), isDigit);
@@ -58,7 +63,7 @@ bool naturalLess(std::string_view a, std::string_view b) noexcept {
       a = behindNumber(a), b = behindNumber(b);
       continue;
     }
-    if (a.front() != b.front()) return a.front() < b.front();
+    if (a.front() != b.front()) return byteOf(a) < byteOf(b);
     a.remove_prefix(1), b.remove_prefix(1);
   }
   if (a.empty() != b.empty()) return a.empty();

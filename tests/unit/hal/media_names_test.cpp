@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hal/media/media_names.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace relievo {
+namespace {
+
+// By the code points of UTF-8, also where a char has a sign.
+TEST(NaturalOrder, NumbersCountAndOtherScriptsComeLast) {
+  std::vector<std::string> names{"فيلم", "10.png", "z.mkv", "2.png", "映画", "é.mkv", "A.mkv"};
+  std::ranges::sort(names, naturalLess);
+  EXPECT_EQ(names, (std::vector<std::string>{"2.png", "10.png", "A.mkv", "z.mkv", "é.mkv", "فيلم", "映画"}));
+}
+
+}  // namespace
+}  // namespace relievo
