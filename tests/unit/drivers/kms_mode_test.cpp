@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The choice among a screen's modes; timings of CTA-861-G, table 1.
-#include "drivers/egl/kms_mode.h"
+#include "drivers/egl/kms/kms_mode.h"
 
 #include <gtest/gtest.h>
 

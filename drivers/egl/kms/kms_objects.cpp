@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A property is found by its name among the object's.
-#include "drivers/egl/kms_objects.h"
+#include "drivers/egl/kms/kms_objects.h"
 
 namespace relievo::kms {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Exchanges buffers of a GBM surface, and registers each as a framebuffer of the card once.
-#include "drivers/egl/kms_buffers.h"
+#include "drivers/egl/kms/kms_buffers.h"
 
 #include <EGL/eglext.h>
 #include <drm_fourcc.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ranks a screen's modes by stereo signal, size and preference.
-#include "drivers/egl/kms_mode.h"
+#include "drivers/egl/kms/kms_mode.h"
 
 #include <cstdio>
 

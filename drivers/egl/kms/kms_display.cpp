@@ -7,9 +7,9 @@
 
 #include "drivers/egl/egl.h"
 #include "drivers/egl/egl_context.h"
-#include "drivers/egl/kms_buffers.h"
-#include "drivers/egl/kms_mode.h"
-#include "drivers/egl/kms_screen.h"
+#include "drivers/egl/kms/kms_buffers.h"
+#include "drivers/egl/kms/kms_mode.h"
+#include "drivers/egl/kms/kms_screen.h"
 
 namespace relievo {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The properties of KMS (kernel documentation gpu/drm-kms.rst, "Standard Connector Properties" and "Color Management
 // Properties").
-#include "drivers/egl/kms_leftovers.h"
+#include "drivers/egl/kms/kms_leftovers.h"
 
-#include "drivers/egl/kms_objects.h"
+#include "drivers/egl/kms/kms_objects.h"
 
 namespace relievo::kms {
 namespace {

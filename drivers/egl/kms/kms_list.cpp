@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "drivers/egl/egl.h"
-#include "drivers/egl/kms_mode.h"
-#include "drivers/egl/kms_screen.h"
+#include "drivers/egl/kms/kms_mode.h"
+#include "drivers/egl/kms/kms_screen.h"
 
 namespace relievo {
 namespace {

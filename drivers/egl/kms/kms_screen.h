@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/egl/kms_mode.h"
+#include "drivers/egl/kms/kms_mode.h"
 #include "platform/clock.h"
 #include "platform/error.h"
 #include "platform/unique_fd.h"

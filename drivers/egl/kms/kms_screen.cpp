@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Atomic commits on one CRTC, and the events that complete them.
-#include "drivers/egl/kms_screen.h"
+#include "drivers/egl/kms/kms_screen.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,8 +12,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "drivers/egl/kms_leftovers.h"
-#include "drivers/egl/kms_objects.h"
+#include "drivers/egl/kms/kms_leftovers.h"
+#include "drivers/egl/kms/kms_objects.h"
 
 namespace relievo::kms {
 namespace {
