@@ -83,8 +83,7 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
 Result<Input::Opened> Opener::open(const std::string& url) {
   const auto input = std::make_shared<Input>();
   watch(input);
-  const std::atomic<bool>* const flag = CancelsAnswers::flag();
-  if (input_->watch().cancelled() || (flag != nullptr && *flag)) input->watch().cancel();
+  if (input_->watch().cancelled()) input->watch().cancel();
   auto opened = openApart(input, url);
   if (opened) {
     input_ = input;
