@@ -83,7 +83,7 @@ Range BagFile::inMemory(std::vector<std::uint8_t> plain) {
 }
 
 void BagFile::addConnection(std::uint32_t id, std::string topic, std::string type, bool cdr) {
-  if (connections_.size() >= kMostConnections) return;
+  if (connections_.size() >= kMostConnections || std::max(topic.size(), type.size()) > kMostName) return;
   connections_.try_emplace(
       id, Connection{.topic = std::move(topic), .type = plainType(std::move(type)), .chunks = {}, .cdr = cdr});
 }

@@ -22,6 +22,7 @@ inline constexpr std::size_t kMostChunk = std::size_t{128} << 20;       // bytes
 inline constexpr std::uint64_t kMostSearched = std::uint64_t{1} << 30;  // bytes unpacked to find out what is in the bag
 inline constexpr std::size_t kMostChunks = std::size_t{1} << 20;
 inline constexpr std::size_t kMostConnections = std::size_t{1} << 16;
+inline constexpr std::size_t kMostName = 4096;  // bytes of a topic's name, or its type's
 inline constexpr std::size_t kMostDescription = std::size_t{4}
                                                 << 20;  // bytes of a connection's or a chunk's description
 
@@ -61,6 +62,7 @@ class BagFile {
   [[nodiscard]] virtual Range unpack(std::uint32_t chunk) = 0;
   [[nodiscard]] virtual bool hasChunks() const noexcept = 0;
 
+  // Those with longer names than kMostName are passed over.
   void addConnection(std::uint32_t id, std::string topic, std::string type, bool cdr);
   void addToChunk(std::uint32_t connection, std::uint32_t chunk, std::uint64_t messages);
   // Forgets the connections, and the content of chunks: they will be numbered anew.

@@ -118,6 +118,16 @@ TEST_F(RosbagSource, Ros2PicturesBehindAMillionOtherMessagesAreRead) {
   EXPECT_NE(streamOf(*source, "/camera/depth/image_raw"), nullptr);
 }
 
+// The rows of a made-up database can share the pages of one long name.
+TEST_F(RosbagSource, TopicsWithLongerNamesThanAnyRecorderWritesArePassedOver) {
+  for (const std::size_t length : {4000U, 5000U}) {
+    Ros2Recording ros2;
+    const auto topic = ros2.connect("/depth/" + std::string(length, 'x'), "sensor_msgs/msg/Image");
+    ros2.write(topic, 1, ros2Image(depthImage(0)));
+    for (const std::string& bag : {mcapOf(ros2, {}), db3Of(ros2)}) EXPECT_EQ(openingOf(bag).has_value(), length < 4096);
+  }
+}
+
 TEST_F(RosbagSource, ADatabaseWhoseTableIsAQueryIsRefused) {
   const std::string views =
       db3Of(recording(), false, "ALTER TABLE messages RENAME TO m; CREATE VIEW messages AS SELECT * FROM m");
