@@ -29,8 +29,7 @@ constexpr int kMostOpens = 200;  // files and addresses that a container opens a
 constexpr Error kIndexBehind{
     ErrorCode::Unsupported, 0,
     "its index is at its end, and a pipe, or a server that gives only whole files, cannot go back to its pictures; "
-    "save "
-    "it to a file, or write it with its index first: ffmpeg -i FILE -map 0 -c copy -movflags +faststart film.mp4"};
+    "save it to a file, or write it with its index first: ffmpeg -i FILE -map 0 -c copy -movflags +faststart film.mp4"};
 constexpr Error kNoParts{ErrorCode::NotFound, 0,
                          "it is a list, and none of its parts can be opened; get them, or the whole film in one file"};
 

@@ -26,7 +26,7 @@ constexpr const char* kNoKnownPictures =
     "the bag's pictures have no known encoding; record them raw, as JPEG or as PNG";
 constexpr const char* kPackedDepth =
     "the bag's depth is packed as compressedDepth in a way that is not read (RVL, not PNG); play the bag through "
-    "rosrun image_transport republish compressedDepth in:=TOPIC raw out:=/depth/image_raw and record that";
+    "image_transport (republish compressedDepth raw) and record that";
 
 Error cancelledError() noexcept {
   return {ErrorCode::Cancelled, 0, "interrupted while reading the bag"};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source for bags of ROS 1 (format 2.0) and ROS 2 (MCAP): recordings of RealSense cameras and of ROS topics.
+// Media source for bags of ROS 1 (format 2.0) and ROS 2 (MCAP, SQLite): recordings of RealSense cameras and of ROS
+// topics.
 #pragma once
 
 #include <memory>
