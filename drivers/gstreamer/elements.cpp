@@ -53,7 +53,8 @@ bool hasBits(const GValue* formats, int bits) {
   if (formats != nullptr && G_VALUE_HOLDS_STRING(formats)) {
     const auto format = gst_video_format_from_string(g_value_get_string(formats));
     const GstVideoFormatInfo* const info = gst_video_format_get_info(format);
-    return info == nullptr || static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(info, 0)) >= bits;
+    const int depth = info == nullptr ? 0 : static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(info, 0));
+    return depth == 0 || depth >= bits;  // 0: not said, as by the modifiers of a dma-buf (DMA_DRM)
   }
   if (formats == nullptr || !GST_VALUE_HOLDS_LIST(formats)) return true;
   for (guint i = 0; i < gst_value_list_get_size(formats); ++i) {
