@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Films with more tags than any program writes: FFmpeg's time for them grows with the square of their number.
+#include <gmock/gmock.h>
 #include <sys/resource.h>
 
 #include <filesystem>
