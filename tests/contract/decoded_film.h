@@ -19,11 +19,11 @@ namespace relievo::test {
 
 // A film that moves, of three key frames.
 inline constexpr int kMovingFrames = 72;
-inline ClipTrack movingClip() {
+inline ClipTrack movingClip(int width = 100, int height = 70) {
   ClipTrack track{.codec = "libx264",
                   .pix_fmt = "yuv420p",
-                  .width = 100,
-                  .height = 70,
+                  .width = width,
+                  .height = height,
                   .fps_num = 25,
                   .frames = kMovingFrames,
                   .gop = 24,

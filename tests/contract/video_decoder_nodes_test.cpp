@@ -21,15 +21,10 @@ using test::Film;
 using test::play;
 using test::UmockdevCodec;
 
-test::ClipTrack movingTrack(int width = 100, int height = 70) {
-  test::ClipTrack track = test::movingClip();
-  track.width = width, track.height = height;
-  return track;
-}
-
 class V4l2Nodes : public test::MockedMachine {
  protected:
-  [[nodiscard]] Film film(const std::string& name = "film.mkv", const test::ClipTrack& track = movingTrack()) const {
+  [[nodiscard]] Film film(const std::string& name = "film.mkv",
+                          const test::ClipTrack& track = test::movingClip()) const {
     const std::string path = folder_ / name;
     test::makeClip(path, {track});
     return Film(path);
@@ -80,7 +75,7 @@ TEST_F(V4l2Nodes, ADriverMayNotTellTheVisiblePart) {
     SCOPED_TRACE(later);
     const std::string both = folder() / "both.ts";
     std::filesystem::remove(both);
-    test::ClipTrack track = movingTrack(width, height);
+    test::ClipTrack track = test::movingClip(width, height);
     for (const char* name : {"a.ts", "b.ts"}) {
       (void)film(name, track);
       std::ofstream(both, std::ios::binary | std::ios::app) << std::ifstream(folder() / name).rdbuf();
@@ -95,18 +90,18 @@ TEST_F(V4l2Nodes, ADriverMayNotTellTheVisiblePart) {
 
 TEST_F(V4l2Nodes, WhatItCannotDecodeItRefusesBeforehand) {
   EXPECT_EQ(refusal(film()), ErrorCode::NotFound) << "no hardware";
-  test::ClipTrack fine = movingTrack();
+  test::ClipTrack fine = test::movingClip();
   fine.pix_fmt = "yuv420p10le";
-  test::ClipTrack colourful = movingTrack();
+  test::ClipTrack colourful = test::movingClip();
   colourful.pix_fmt = "yuv444p";
-  test::ClipTrack gray = movingTrack();
+  test::ClipTrack gray = test::movingClip();
   gray.pix_fmt = "gray";
   {
     UmockdevCodec codec(bed_, 10, {.largest = 128});
     EXPECT_EQ(refusal(film("fine.mkv", fine)), ErrorCode::Unsupported);
     EXPECT_EQ(refusal(film("colourful.mkv", colourful)), ErrorCode::Unsupported);
     EXPECT_EQ(refusal(film("gray.mkv", gray)), ErrorCode::Unsupported);
-    EXPECT_EQ(refusal(film("wide.mkv", movingTrack(160, 64))), ErrorCode::Unsupported);
+    EXPECT_EQ(refusal(film("wide.mkv", test::movingClip(160, 64))), ErrorCode::Unsupported);
     EXPECT_EQ(refusal(film("lossless.mkv", {})), ErrorCode::Unsupported) << "another codec";
     fine.codec = "libx265";
     fine.options = {{"x265-params", "log-level=none"}};
@@ -120,7 +115,7 @@ TEST_F(V4l2Nodes, WhatItCannotDecodeItRefusesBeforehand) {
   }
   UmockdevCodec codec(bed_, 10, {.main_profile_only = true});
   EXPECT_EQ(refusal(film()), ErrorCode::Unsupported) << "High";
-  test::ClipTrack main = movingTrack();
+  test::ClipTrack main = test::movingClip();
   main.options = {{"profile", "main"}};
   const Film in_main = film("main.mkv", main);
   EXPECT_EQ(play(*open(in_main), in_main), bySoftware(in_main));

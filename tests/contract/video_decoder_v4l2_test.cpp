@@ -38,12 +38,6 @@ INSTANTIATE_TEST_SUITE_P(V4l2, VideoDecoderContract,
                                                            test::encodedFilm, nullptr}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-test::ClipTrack movingClip(int width = 100, int height = 70) {
-  test::ClipTrack track = test::movingClip();
-  track.width = width, track.height = height;
-  return track;
-}
-
 class V4l2M2m : public test::MockedMachine {
  protected:
   void SetUp() override {
@@ -51,7 +45,7 @@ class V4l2M2m : public test::MockedMachine {
     if (IsSkipped()) return;
     if (!clip_) {
       clip_.emplace();
-      test::makeClip(*clip_ / "film.mkv", {movingClip()});
+      test::makeClip(*clip_ / "film.mkv", {test::movingClip()});
     }
   }
   static void TearDownTestSuite() { clip_.reset(); }
@@ -89,12 +83,12 @@ TEST_F(V4l2M2m, PicturesAreThoseOfSoftwareToTheBitInEveryArrangement) {
 }
 
 TEST_F(V4l2M2m, PacketsOfEveryContainerAndCodecAreDecoded) {
-  test::ClipTrack hevc = movingClip();
+  test::ClipTrack hevc = test::movingClip();
   hevc.codec = "libx265";
   hevc.options = {{"x265-params", "log-level=none"}};
   for (const char* name : {"film.mp4", "film.ts"}) {
     UmockdevCodec codec(bed_, 10);
-    const Film film(makeClip(name, movingClip()));
+    const Film film(makeClip(name, test::movingClip()));
     EXPECT_EQ(play(*open(film), film), bySoftware(film)) << name;
   }
   for (const char* name : {"hevc.mkv", "hevc.ts"}) {
@@ -106,7 +100,7 @@ TEST_F(V4l2M2m, PacketsOfEveryContainerAndCodecAreDecoded) {
 
 TEST_F(V4l2M2m, ColoursAreAsTheStreamSaysThem) {
   UmockdevCodec codec(bed_, 10);
-  test::ClipTrack track = movingClip();
+  test::ClipTrack track = test::movingClip();
   track.range = ColorRange::Full;
   track.pix_fmt = "yuvj420p";
   track.sample_width = 4, track.sample_height = 3;
@@ -127,7 +121,7 @@ TEST_F(V4l2M2m, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
 
 TEST_F(V4l2M2m, ASeekIntoAnOpenGroupDamagesNothing) {
   UmockdevCodec codec(bed_, 10, {.packets = V4L2_PIX_FMT_HEVC});
-  test::ClipTrack hevc = movingClip();
+  test::ClipTrack hevc = test::movingClip();
   hevc.codec = "libx265";
   hevc.options = {{"x265-params", "log-level=none"}};
   const Film film(makeClip("open.mkv", hevc));
@@ -151,8 +145,8 @@ TEST_F(V4l2M2m, DrainsAgainAndAgain) {
 }
 
 TEST_F(V4l2M2m, TheResolutionChangesInMidStream) {
-  (void)makeClip("a.ts", movingClip());
-  test::ClipTrack second = movingClip(64, 160);
+  (void)makeClip("a.ts", test::movingClip());
+  test::ClipTrack second = test::movingClip(64, 160);
   second.start = std::chrono::seconds(5);
   (void)makeClip("b.ts", second);
   for (const char* const name : {"a.ts", "b.ts", "a.ts"}) {
@@ -179,8 +173,8 @@ TEST_F(V4l2M2m, TheResolutionChangesInMidStream) {
 
 // A seek during a change of resolution.
 TEST_F(V4l2M2m, ASeekMayLeadToAnotherResolution) {
-  (void)makeClip("a.ts", movingClip());
-  test::ClipTrack second = movingClip(64, 160);
+  (void)makeClip("a.ts", test::movingClip());
+  test::ClipTrack second = test::movingClip(64, 160);
   second.start = std::chrono::seconds(5);
   (void)makeClip("b.ts", second);
   std::ofstream(clip("two.ts"), std::ios::binary)
