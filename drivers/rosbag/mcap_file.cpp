@@ -105,7 +105,7 @@ bool McapFile::readSummary(const std::atomic<bool>& cancelled) {
 }
 
 // The number of messages of which a record of this kind says where they are.
-std::uint64_t McapFile::indexed(const Head& index) const noexcept {
+std::uint64_t McapFile::indexed(const Head& index) noexcept {
   constexpr std::uint64_t kBefore = 6, kEntry = 16;
   return index.data_bytes < kBefore ? 0 : (index.data_bytes - kBefore) / kEntry;
 }

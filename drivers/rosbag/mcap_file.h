@@ -43,7 +43,7 @@ class McapFile final : public BagFile {
   void endChunk(const std::vector<Head>& index);
   void scanChunk(std::uint32_t chunk);
   void describe(const Range& range, const Head& head);
-  [[nodiscard]] std::uint64_t indexed(const Head& index) const noexcept;
+  [[nodiscard]] static std::uint64_t indexed(const Head& index) noexcept;
 
   std::vector<Chunk> chunks_;
   Schemas schemas_;
