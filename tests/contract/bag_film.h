@@ -7,6 +7,7 @@
 
 #include "tests/contract/films.h"
 #include "tests/support/film/recording/bag_writer.h"
+#include "tests/support/film/recording/ros_messages.h"
 
 namespace relievo::test {
 

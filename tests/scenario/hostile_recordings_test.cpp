@@ -23,6 +23,7 @@
 #include "tests/support/film/recording/kinect_mkv.h"
 #include "tests/support/film/recording/oni_writer.h"
 #include "tests/support/film/recording/ros2_bags.h"
+#include "tests/support/film/recording/ros_messages.h"
 #include "tests/support/machine/sanitizers.h"
 
 namespace relievo {

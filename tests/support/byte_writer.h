@@ -22,8 +22,6 @@ class ByteWriter {
   ByteWriter& time(std::int64_t ns) {
     return add(static_cast<std::uint32_t>(ns / 1'000'000'000)).add(static_cast<std::uint32_t>(ns % 1'000'000'000));
   }
-  // std_msgs/Header
-  ByteWriter& header(std::int64_t ns, std::string_view frame) { return add(std::uint32_t{7}).time(ns).text(frame); }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
  private:

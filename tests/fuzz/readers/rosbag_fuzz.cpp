@@ -7,6 +7,7 @@
 #include "tests/fuzz/film_fuzz.h"
 #include "tests/support/film/recording/bag_writer.h"
 #include "tests/support/film/recording/ros2_bags.h"
+#include "tests/support/film/recording/ros_messages.h"
 
 namespace relievo {
 namespace {
@@ -26,7 +27,7 @@ std::string soundBag(const std::string& compression, bool indexed) {
     bag.write(pose, 1, test::bagTransform({0.1, 0, 0}, {0, 0, 0, 1}));
   }
   const auto frames = bag.connect("/tf", "tf2_msgs/TFMessage");
-  bag.write(frames, 1, test::bagFrameMotion("base", "camera", test::bagTransform({0, 0, 0}, {0, 0, 0, 1})));
+  bag.write(frames, 1, test::bagFrameMotion("base", "camera", {0, 0, 0}, {0, 0, 0, 1}));
   for (int i = 0; i < 4; ++i) {
     bag.write(
         depth, i,

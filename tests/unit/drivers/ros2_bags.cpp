@@ -8,6 +8,7 @@
 #include "app/media/registration/registration.h"
 #include "tests/support/film/recording/recorded_frames.h"
 #include "tests/support/film/recording/ros2_bags.h"
+#include "tests/support/film/recording/ros_messages.h"
 #include "tests/unit/drivers/rosbag_films.h"
 
 namespace relievo::test {

@@ -8,6 +8,7 @@
 #include "app/media/registration/registration.h"
 #include "tests/support/film/recording/bag_writer.h"
 #include "tests/support/film/recording/recorded_frames.h"
+#include "tests/support/film/recording/ros_messages.h"
 #include "tests/unit/drivers/rosbag_films.h"
 
 namespace relievo::test {
@@ -144,8 +145,8 @@ TEST_F(RosbagSource, RosFramesRegisterTheDepth) {
     bag.write(bag.connect("/cam/depth/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(kDepthCamera));
     bag.write(bag.connect("/cam/rgb/camera_info", "sensor_msgs/CameraInfo"), 1, bagCameraInfo(colorCamera(lens)));
     const auto frames = bag.connect("/tf_static", "tf2_msgs/TFMessage");
-    bag.write(frames, 1, bagFrameMotion("base", "depth_optical", bagTransform({0.1, 0, 0}, kUpright)));
-    bag.write(frames, 1, bagFrameMotion("base", "/color_optical", bagTransform({0.1, 0.03, 0}, kQuarterTurn)));
+    bag.write(frames, 1, bagFrameMotion("base", "depth_optical", {0.1, 0, 0}, kUpright));
+    bag.write(frames, 1, bagFrameMotion("base", "/color_optical", {0.1, 0.03, 0}, kQuarterTurn));
     return streamOf(*open(bag.finish()), "/cam/depth/image_raw")->tags;
   };
   const auto tags = tagsOf("plumb_bob", "color_optical");

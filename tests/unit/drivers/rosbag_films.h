@@ -15,6 +15,7 @@
 #include "drivers/rosbag/rosbag.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/recording/bag_writer.h"
+#include "tests/support/film/recording/ros_messages.h"
 
 namespace relievo::test {
 

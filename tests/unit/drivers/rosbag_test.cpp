@@ -11,6 +11,7 @@
 #include "tests/support/film/failing_disk.h"
 #include "tests/support/film/recording/bag_writer.h"
 #include "tests/support/film/recording/recorded_frames.h"
+#include "tests/support/film/recording/ros_messages.h"
 #include "tests/unit/drivers/rosbag_films.h"
 
 namespace relievo::test {

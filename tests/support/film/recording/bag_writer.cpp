@@ -34,43 +34,6 @@ std::string packedTime(std::int64_t ns) {
 
 }  // namespace
 
-std::string bagImage(const BagImage& image) {
-  ByteWriter message;
-  message.header(image.stamp_ns, image.unit_m > 0 ? "1" : image.frame).add(image.rows).add(image.cols);
-  message.text(image.encoding).add(static_cast<std::uint8_t>(image.big_endian)).add(image.step).text(image.data);
-  if (image.unit_m > 0) message.add(image.unit_m);
-  return message.bytes();
-}
-
-std::string bagCompressedImage(std::int64_t stamp_ns, std::string_view format, std::string_view data) {
-  return ByteWriter().header(stamp_ns, "camera").text(format).text(data).bytes();
-}
-
-std::string bagCameraInfo(const BagCamera& camera) {
-  ByteWriter message;
-  message.header(0, "camera").add(camera.rows).add(camera.cols).text(camera.model);
-  message.add(static_cast<std::uint32_t>(camera.distortion.size()));
-  for (const double d : camera.distortion) message.add(d);
-  for (const double k : {camera.focal_x, 0.0, camera.center_x, 0.0, camera.focal_y, camera.center_y, 0.0, 0.0, 1.0}) {
-    message.add(k);
-  }
-  for (int i = 0; i < 9; ++i) message.add(0.0);  // R
-  for (const double p : camera.projection) message.add(p);
-  for (int i = 0; i < 6; ++i) message.add(std::uint32_t{0});  // binning, region
-  return message.add(std::uint8_t{0}).bytes();
-}
-
-std::string bagTransform(const std::array<double, 3>& translation_m, const std::array<double, 4>& rotation) {
-  ByteWriter message;
-  for (const double value : translation_m) message.add(value);
-  for (const double value : rotation) message.add(value);
-  return message.bytes();
-}
-
-std::string bagFrameMotion(std::string_view parent, std::string_view child, std::string_view transform) {
-  return ByteWriter().add(std::uint32_t{1}).header(0, parent).text(child).raw(transform).bytes();
-}
-
 BagWriter::BagWriter(std::string compression) : compression_(std::move(compression)), file_("#ROSBAG V2.0\n") {
   file_.append(kBagHeader, ' ');
 }

@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS 1 bags (format 2.0), byte by byte, and the messages in them, for tests.
+// ROS 1 bags (format 2.0), byte by byte, for tests.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "tests/support/byte_writer.h"
 
 namespace relievo::test {
-
-struct BagImage {
-  std::int64_t stamp_ns = 0;
-  std::string frame = "camera";
-  std::uint32_t cols = 0, rows = 0, step = 0;
-  std::string encoding;
-  bool big_endian = false;
-  std::string data;
-  float unit_m = 0;  // over 0: behind the picture, as RealSense writes it
-};
-[[nodiscard]] std::string bagImage(const BagImage& image);
-[[nodiscard]] std::string bagCompressedImage(std::int64_t stamp_ns, std::string_view format, std::string_view data);
-struct BagCamera {
-  std::uint32_t cols = 0, rows = 0;
-  double focal_x = 0, focal_y = 0, center_x = 0, center_y = 0;
-  std::string model = "plumb_bob";
-  std::vector<double> distortion = std::vector<double>(5);
-  std::array<double, 12> projection{};  // of rectified pictures
-};
-[[nodiscard]] std::string bagCameraInfo(const BagCamera& camera);
-// geometry_msgs/Transform; rotation: x, y, z, w.
-[[nodiscard]] std::string bagTransform(const std::array<double, 3>& translation_m,
-                                       const std::array<double, 4>& rotation);
-// tf2_msgs/TFMessage with one transform.
-[[nodiscard]] std::string bagFrameMotion(std::string_view parent, std::string_view child, std::string_view transform);
 
 class BagWriter {
  public:

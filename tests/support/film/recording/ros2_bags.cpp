@@ -1,45 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes MCAP by its specification (mcap.dev), databases by SQLite with the tables of rosbag2, messages by CDR.
+// Writes MCAP by its specification (mcap.dev), databases by SQLite with the tables of rosbag2.
 #include "tests/support/film/recording/ros2_bags.h"
 
 #include <lz4frame.h>
 #include <sqlite3.h>
 #include <zstd.h>
 
+#include <map>
 #include <stdexcept>
+
+#include "tests/support/byte_writer.h"
+#include "tests/support/film/recording/ros_messages.h"
 
 namespace relievo::test {
 namespace {
-
-// Each value at a multiple of its size behind the first four bytes.
-class CdrWriter {
- public:
-  template <class T>
-  CdrWriter& add(T value) {
-    while ((bytes_.size() - 4) % sizeof value != 0) bytes_ += '\0';
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-    return *this;
-  }
-  CdrWriter& text(std::string_view text) {
-    add(static_cast<std::uint32_t>(text.size() + 1));
-    bytes_.append(text) += '\0';
-    return *this;
-  }
-  CdrWriter& block(std::string_view data) {
-    add(static_cast<std::uint32_t>(data.size()));
-    bytes_.append(data);
-    return *this;
-  }
-  CdrWriter& header(std::int64_t ns, std::string_view frame) {
-    return add(static_cast<std::int32_t>(ns / 1'000'000'000))
-        .add(static_cast<std::uint32_t>(ns % 1'000'000'000))
-        .text(frame);
-  }
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_{"\0\1\0\0", 4};
-};
 
 std::string packed(const std::string& plain, const std::string& compression) {
   if (compression.empty()) return plain;
@@ -79,39 +53,6 @@ void check(sqlite3* database, int code) {
 }
 
 }  // namespace
-
-std::string ros2Image(const BagImage& image) {
-  CdrWriter cdr;
-  cdr.header(image.stamp_ns, image.frame).add(image.rows).add(image.cols).text(image.encoding);
-  return cdr.add(static_cast<std::uint8_t>(image.big_endian)).add(image.step).block(image.data).bytes();
-}
-
-std::string ros2CompressedImage(std::int64_t stamp_ns, std::string_view format, std::string_view data) {
-  return CdrWriter().header(stamp_ns, "camera").text(format).block(data).bytes();
-}
-
-std::string ros2CameraInfo(const BagCamera& camera) {
-  CdrWriter cdr;
-  cdr.header(0, "camera").add(camera.rows).add(camera.cols).text(camera.model);
-  cdr.add(static_cast<std::uint32_t>(camera.distortion.size()));
-  for (const double d : camera.distortion) cdr.add(d);
-  for (const double k : {camera.focal_x, 0.0, camera.center_x, 0.0, camera.focal_y, camera.center_y, 0.0, 0.0, 1.0}) {
-    cdr.add(k);
-  }
-  for (int i = 0; i < 9; ++i) cdr.add(0.0);  // r
-  for (const double p : camera.projection) cdr.add(p);
-  for (int i = 0; i < 6; ++i) cdr.add(std::uint32_t{0});  // binning, region
-  return cdr.add(std::uint8_t{0}).bytes();
-}
-
-std::string ros2FrameMotion(std::string_view parent, std::string_view child, const std::array<double, 3>& translation_m,
-                            const std::array<double, 4>& rotation) {
-  CdrWriter cdr;
-  cdr.add(std::uint32_t{1}).header(0, parent).text(child);
-  for (const double value : translation_m) cdr.add(value);
-  for (const double value : rotation) cdr.add(value);
-  return cdr.bytes();
-}
 
 std::string mcapOf(const Ros2Recording& recording, const McapForm& form) {
   const std::string magic = "\x89MCAP0\r\n";

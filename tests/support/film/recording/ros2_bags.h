@@ -1,25 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags of ROS 2, MCAP and SQLite, and the messages in them, for tests.
+// Bags of ROS 2, MCAP and SQLite, for tests.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <map>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
-#include "tests/support/film/recording/bag_writer.h"
-
 namespace relievo::test {
-
-// Messages in CDR.
-[[nodiscard]] std::string ros2Image(const BagImage& image);
-[[nodiscard]] std::string ros2CompressedImage(std::int64_t stamp_ns, std::string_view format, std::string_view data);
-[[nodiscard]] std::string ros2CameraInfo(const BagCamera& camera);
-[[nodiscard]] std::string ros2FrameMotion(std::string_view parent, std::string_view child,
-                                          const std::array<double, 3>& translation_m,
-                                          const std::array<double, 4>& rotation);
 
 // Topics and messages of a recording, in the order in which they were recorded.
 struct Ros2Recording {
