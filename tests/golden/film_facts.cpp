@@ -8,7 +8,7 @@
 
 #include "app/haptics/baseline/methods.h"
 #include "app/lab/trace/trace.h"
-#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/ffmpeg_backends.h"
 
 namespace relievo {
 namespace {
@@ -37,9 +37,7 @@ void writeFrame(std::FILE* out, const char* name, const Frame& frame) {
 }
 
 Outcome<int> writeFacts(const std::string& film, const std::string& hip, const std::string& folder) {
-  const PairReader::Backends backends{.make_source = [](const std::string&) { return makeFfmpegSource(); },
-                                      .make_decoder = [](const StreamInfo&) { return makeFfmpegDecoder(); }};
-  PairReader reader(backends);
+  PairReader reader(kFfmpeg);
   if (const auto opened = reader.open({.url = film}); !opened) return failOn(reader.failedThing(), opened.error());
   std::FILE* const out = std::fopen((folder + "/frames.txt").c_str(), "w");
   if (out == nullptr) return failOn(folder, {ErrorCode::NotFound, 0, "cannot be written to"});
@@ -60,7 +58,7 @@ Outcome<int> writeFacts(const std::string& film, const std::string& hip, const s
     options.hip_path = hip;
     options.out_path = folder + "/" + name + ".csv";
     options.method = name;
-    if (const auto traced = runTrace(options, backends); !traced) return std::unexpected(traced.error());
+    if (const auto traced = runTrace(options, kFfmpeg); !traced) return std::unexpected(traced.error());
   }
   return frames;
 }

@@ -28,4 +28,10 @@ class ByteWriter {
   std::string bytes_;
 };
 
+// The bytes of one value.
+template <class T>
+std::string number(T value) {
+  return ByteWriter().add(value).bytes();
+}
+
 }  // namespace relievo::test

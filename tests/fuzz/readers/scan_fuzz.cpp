@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // A valid scan with bytes changed: the first byte of the input chooses .sens or .klg, then each three bytes are a
 // position and a value, and 0xffff cuts it off at the position before.
-#include <cstring>
 
 #include "drivers/scan/scan.h"
 #include "tests/fuzz/film_fuzz.h"
+#include "tests/support/byte_writer.h"
 
 namespace relievo {
 namespace {
 
-constexpr int kCols = 8, kRows = 6, kFrames = 3;
+using test::number;
 
-template <class T>
-std::string number(T value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
+constexpr int kCols = 8, kRows = 6, kFrames = 3;
 
 std::string soundSens() {
   std::string bytes = number(std::uint32_t{4}) + number(std::uint64_t{3}) + "cam" + std::string(256, '\0');

@@ -54,7 +54,7 @@ TEST_P(AuthorDepthCheck, MeasuresTheFilmAsItIsReadBack) {
       .command_line = {{"polarity", "near-high"}, {"invalid", "0"}, {"near", "500"}, {"far", "3000"}}};
   const std::string path = folder_ / (std::string("out") + coded.ending);
   const auto summary = authorFilm(
-      source, kBackends,
+      source, kFfmpeg,
       {.path = path, .depth = {.codec = coded.codec, .bits = coded.bits, .law = coded.law, .crf = coded.crf}}, stop_,
       kNoReport);
   ASSERT_TRUE(summary) << summary.error().thing << ": " << summary.error().error.message;

@@ -15,8 +15,8 @@
 #include "app/author/author.h"
 #include "app/author/package/output.h"
 #include "app/media/pair_reader.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/machine/program.h"
 
 namespace relievo {
@@ -25,8 +25,6 @@ using test::ClipTrack;
 using test::makeClip;
 using test::TemporaryFolder;
 
-inline const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
-                                            [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 inline const ProgressReport kNoReport = [](std::uint64_t, std::optional<std::uint64_t>) {};
 
 inline ClipTrack colorTrack(int width = 64, int height = 48, int fps = 30, int frames = 30) {
@@ -49,7 +47,7 @@ struct Film {
 };
 
 inline Film readFilm(const std::string& path) {
-  PairReader reader(kBackends);
+  PairReader reader(kFfmpeg);
   const auto opened = reader.open({.url = path});
   EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
   Film film{reader.info(), {}};
@@ -71,8 +69,7 @@ class AuthorFilm : public testing::Test {
   std::atomic<bool> stop_{false};
 
   Outcome<AuthorSummary> make(const SourceOptions& source, const std::string& out = "out.mkv") {
-    return authorFilm(source, kBackends, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_,
-                      kNoReport);
+    return authorFilm(source, kFfmpeg, {.path = folder_ / out, .color_crf = 18, .depth = {.crf = 0}}, stop_, kNoReport);
   }
   // Packages colour and depth from two files into out.mkv.
   AuthorSummary package(const ClipTrack& color, const ClipTrack& depth, SourceOptions source = {}) {

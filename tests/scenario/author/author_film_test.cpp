@@ -10,7 +10,6 @@
 
 #include "app/author/author.h"
 #include "app/scene/height_field.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/author/author_film.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/mkv_patch.h"
@@ -209,7 +208,7 @@ TEST_F(AuthorFilm, CutsADepthForFlatChromaToAnEvenSize) {
            {depthTrack("gray", [](int c, int r, int) { return static_cast<std::uint32_t>(c + r); }, 33, 25)});
   // One of 33 columns is 2 of 64 (1.03 of 33); one of 25 rows is 2 of 48 (1.04 of 25).
   const auto summary =
-      authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kBackends,
+      authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kFfmpeg,
                  {.path = folder_ / "out.mkv", .depth = {.flat_chroma = true, .crf = 0}}, stop_, kNoReport);
   ASSERT_TRUE(summary.has_value()) << summary.error().error.message;
   EXPECT_EQ(summary->format.color_width, 62);

@@ -149,7 +149,7 @@ TEST_F(AuthorFilm, LeavesNothingWhenItIsInterrupted) {
     reached = done;
     if (done == 5) stop_ = true;
   };
-  const auto summary = authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kBackends,
+  const auto summary = authorFilm({.url = folder_ / "color.mkv", .depth_url = folder_ / "depth.mkv"}, kFfmpeg,
                                   {.path = folder_ / "out.mkv"}, stop_, stopAtFive);
   ASSERT_FALSE(summary.has_value());
   EXPECT_EQ(summary.error().error.code, ErrorCode::Cancelled);
@@ -179,7 +179,7 @@ class LiveFile final : public MediaSource {
   explicit LiveFile(int packets) : left_(packets) {}
 };
 PairReader::Backends liveOf(int packets) {
-  return {[packets](const std::string&) { return std::make_unique<LiveFile>(packets); }, kBackends.make_decoder};
+  return {[packets](const std::string&) { return std::make_unique<LiveFile>(packets); }, kFfmpeg.make_decoder};
 }
 
 TEST_F(AuthorFilm, OfACameraEndsWhereThePicturesChangeTheirSize) {
@@ -196,7 +196,7 @@ TEST_F(AuthorFilm, OfACameraEndsWhereThePicturesChangeTheirSize) {
   ASSERT_TRUE(summary.has_value()) << summary.error().thing << summary.error().error.message;
   EXPECT_EQ(summary->totals.color.frames, 30u);
   EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u);
-  EXPECT_FALSE(authorFilm(source, kBackends, {.path = folder_ / "file.mkv"}, stop_, kNoReport)) << "a file is cut";
+  EXPECT_FALSE(authorFilm(source, kFfmpeg, {.path = folder_ / "file.mkv"}, stop_, kNoReport)) << "a file is cut";
 }
 
 TEST_F(AuthorFilm, OfACameraFailsAtAnyOtherPictureThatCannotBeRead) {
@@ -213,8 +213,7 @@ TEST_F(AuthorFilm, SentOverTheNetworkItsSoundEndsWithThePicturesWhenItIsInterrup
   makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })}, {},
            {{.codec = "aac", .length = std::chrono::seconds(60)}});
   const auto stopAtTen = [&](std::uint64_t done, std::optional<std::uint64_t>) { stop_ = done == 10; };
-  const auto sent =
-      authorFilm({.url = folder_ / "film.mkv"}, kBackends, {.path = "udp://127.0.0.1:9"}, stop_, stopAtTen);
+  const auto sent = authorFilm({.url = folder_ / "film.mkv"}, kFfmpeg, {.path = "udp://127.0.0.1:9"}, stop_, stopAtTen);
   ASSERT_TRUE(sent.has_value()) << sent.error().error.message;
   EXPECT_THAT(sent->kept, ElementsAre(testing::HasSubstr("sound aac")));
   EXPECT_EQ(sent->totals.color.frames, 10u);

@@ -10,7 +10,6 @@
 
 #include "app/author/author.h"
 #include "app/author/package/output.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/author/author_film.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/process.h"
@@ -47,7 +46,7 @@ TEST_F(AuthorFilm, NeverRemovesSegmentsThatAreNotItsOwn) {
   std::filesystem::create_directories(folder_ / "out.segments");
   std::ofstream(folder_ / "out.segments/thesis.txt") << "four years";
   const OutputOptions forced{.path = folder_ / "out.m3u8", .force = true};
-  const auto refused = authorFilm({.url = folder_ / "film.mkv"}, kBackends, forced, stop_, kNoReport);
+  const auto refused = authorFilm({.url = folder_ / "film.mkv"}, kFfmpeg, forced, stop_, kNoReport);
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().error.message, HasSubstr("contains other files"));
   EXPECT_EQ(textOf(folder_ / "out.segments/thesis.txt"), "four years");
@@ -94,7 +93,7 @@ TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {
   const auto refused = make(source, "out.m3u8");
   ASSERT_FALSE(refused.has_value());
   EXPECT_THAT(refused.error().error.message, HasSubstr("segments already exists"));
-  ASSERT_TRUE(authorFilm(source, kBackends, {.path = folder_ / "out.m3u8", .force = true}, stop_, kNoReport));
+  ASSERT_TRUE(authorFilm(source, kFfmpeg, {.path = folder_ / "out.m3u8", .force = true}, stop_, kNoReport));
   EXPECT_THAT(made(), ElementsAre("out.m3u8", "out.segments"));
   EXPECT_THAT(filesIn(folder_ / "out.segments"), ElementsAre("00000.m4s", "init.mp4"));
   EXPECT_EQ(readFilm(folder_ / "out.m3u8").pairs.size(), 30u);

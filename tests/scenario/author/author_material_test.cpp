@@ -10,6 +10,7 @@
 #include "app/author/package/output.h"
 #include "app/scene/material_map.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/film_ways.h"
 
 namespace relievo {
@@ -158,15 +159,13 @@ class PaintedFilm : public testing::Test {
     makeClip(folder_ / "map.png", {map});
   }
   AuthorSummary author(const SourceOptions& source, const std::vector<Painting>& paintings, const std::string& out) {
-    const PairReader::Backends backends{[](const std::string&) { return makeFfmpegSource(); },
-                                        [](const StreamInfo&) { return makeFfmpegDecoder(); }};
     const std::atomic<bool> stop{false};
     OutputOptions output;
     output.path = folder_ / out;
     for (const Painting& painting : paintings) {
       output.paintings.push_back({.path = folder_ / painting.path, .from_s = painting.from_s});
     }
-    auto summary = authorFilm(source, backends, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
+    auto summary = authorFilm(source, kFfmpeg, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
     EXPECT_TRUE(summary.has_value()) << (summary ? "" : summary.error().thing + ": " + summary.error().error.message);
     return summary.value_or(AuthorSummary{});
   }
@@ -301,8 +300,6 @@ TEST_F(PaintedFilm, AFilmThatIsMadeAgainKeepsItsTrack) {
 }
 
 TEST_F(PaintedFilm, AFileThatIsNoPictureIsNamed) {
-  const PairReader::Backends backends{[](const std::string&) { return makeFfmpegSource(); },
-                                      [](const StreamInfo&) { return makeFfmpegDecoder(); }};
   SourceOptions source;
   source.url = folder_ / "color.mkv";
   source.depth_url = folder_ / "depth.mkv";
@@ -310,7 +307,7 @@ TEST_F(PaintedFilm, AFileThatIsNoPictureIsNamed) {
   output.path = folder_ / "film.mkv";
   output.paintings = {{.path = folder_ / "none.png"}};
   const std::atomic<bool> stop{false};
-  const auto made = authorFilm(source, backends, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
+  const auto made = authorFilm(source, kFfmpeg, output, stop, [](std::uint64_t, std::optional<std::uint64_t>) {});
   ASSERT_FALSE(made.has_value());
   EXPECT_EQ(made.error().thing, output.paintings[0].path);
 }

@@ -11,8 +11,8 @@
 
 #include "app/author/author.h"
 #include "app/media/pair_reader.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/still_scene.h"
 
 namespace relievo {
@@ -31,9 +31,6 @@ using testing::HasSubstr;
 constexpr int kCols = 160, kRows = 90, kPan = 28, kZoom = 24, kPictures = kPan + kZoom;
 const std::string kMock =
     std::string("python3 " RELIEVO_SOURCE_DIR "/tests/programs/mock_estimator.py ") + std::to_string(kPictures);
-
-const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
-                                     [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 // Blue is the inverse depth, which is all that the mock estimator looks at.
 double blueOf(double depth) {
@@ -62,7 +59,7 @@ class AuthorOneView : public testing::Test {
                                    }}});
   }
   Outcome<AuthorSummary> make(const std::string& how, const std::string& film = "in.mkv") {
-    return authorFilm({.url = folder_ / film}, kBackends,
+    return authorFilm({.url = folder_ / film}, kFfmpeg,
                       {.path = folder_ / "out.mkv",
                        .color_crf = 0,
                        .depth = {.codec = VideoCodec::Ffv1, .bits = 16, .crf = 0},
@@ -72,7 +69,7 @@ class AuthorOneView : public testing::Test {
   // The nearest and the farthest depth of the scene, as each picture of the film shows them.
   [[nodiscard]] std::vector<ReliefEnds> endsInFilm() const {
     std::vector<ReliefEnds> ends;
-    PairReader reader(kBackends);
+    PairReader reader(kFfmpeg);
     EXPECT_TRUE(reader.open({.url = folder_ / "out.mkv"}).has_value());
     for (auto pair = reader.next(); pair && *pair && ends.size() < kPictures; pair = reader.next()) {
       ends.push_back(test::endsOf(views_[ends.size()], (*pair)->depth));
@@ -152,7 +149,7 @@ TEST_F(AuthorOneView, AGrayFilmIsNotTakenForDepth) {
                                          .light[static_cast<std::size_t>(r) * kCols + static_cast<std::size_t>(c)];
                                    }}});
   const auto as_depth = Contains(HasSubstr("--packing depth-alone"));
-  PairReader reader(kBackends);
+  PairReader reader(kFfmpeg);
   ASSERT_TRUE(reader.open({.url = folder_ / "gray.mkv"}).has_value());
   EXPECT_THAT(reader.info().notes, as_depth);
   const auto summary = make(writing("900 + 90 * r"), "gray.mkv");

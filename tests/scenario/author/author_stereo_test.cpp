@@ -10,8 +10,8 @@
 
 #include "app/author/author.h"
 #include "app/media/pair_reader.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 #include "tests/support/film/two_views.h"
 
 namespace relievo {
@@ -26,9 +26,6 @@ using test::TwoViews;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
-
-const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
-                                     [](const StreamInfo&) { return makeFfmpegDecoder(); }};
 
 // Two pictures side by side or one above the other, as RGB without loss.
 ClipTrack packed(const Frame& first, const Frame& second, bool beside) {
@@ -62,7 +59,7 @@ class AuthorStereo : public testing::Test {
                               std::optional<Enhancement> enhancement = std::nullopt) {
     makeClip(folder_ / "in.mkv", {film});
     source.url = folder_ / "in.mkv";
-    return authorFilm(source, kBackends,
+    return authorFilm(source, kFfmpeg,
                       {.path = folder_ / "out.mkv",
                        .color_crf = 0,
                        .depth = {.codec = VideoCodec::Ffv1, .bits = 16, .crf = 0},
@@ -71,7 +68,7 @@ class AuthorStereo : public testing::Test {
                       stop_, [](std::uint64_t, std::optional<std::uint64_t>) {});
   }
   [[nodiscard]] FramePair firstOf(const std::string& name) const {
-    PairReader reader(kBackends);
+    PairReader reader(kFfmpeg);
     EXPECT_TRUE(reader.open({.url = folder_ / name}).has_value());
     EXPECT_TRUE(reader.info().has_depth);
     EXPECT_THAT(reader.info().reading.doubts, Not(Contains(HasSubstr("which end of the depth is near"))));

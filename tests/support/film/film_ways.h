@@ -11,7 +11,7 @@
 #include "app/author/package/film_writer.h"
 #include "app/media/pair_reader.h"
 #include "app/scene/depth_calibration.h"
-#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/film/ffmpeg_backends.h"
 
 namespace relievo::test {
 
@@ -84,9 +84,7 @@ struct ReadFilm {
   std::vector<FramePair> pairs;
 };
 inline ReadFilm readFilm(const std::string& url, std::size_t most = 1000) {
-  const PairReader::Backends backends{[](const std::string&) { return makeFfmpegSource(); },
-                                      [](const StreamInfo&) { return makeFfmpegDecoder(); }};
-  PairReader reader(backends);
+  PairReader reader(kFfmpeg);
   const auto opened = reader.open({.url = url});
   EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
   ReadFilm film{reader.info(), {}};

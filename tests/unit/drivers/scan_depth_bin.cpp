@@ -4,31 +4,25 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "app/media/pair_reader.h"
 #include "drivers/registry.h"
+#include "tests/support/byte_writer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/failing_disk.h"
+#include "tests/support/film/real_backends.h"
 
 namespace relievo {
 namespace {
 
+using test::number;
 using test::sampleAt;
 using testing::Contains;
 using testing::HasSubstr;
 
 constexpr int kCols = 256, kRows = 192, kFrames = 5;
-const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
-
-template <class T>
-std::string number(T value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
 
 int codeAt(int c, int r, int frame) {
   return c < 3 ? 0 : 1000 + 5 * c + 3 * r + frame;

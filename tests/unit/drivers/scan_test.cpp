@@ -5,31 +5,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include "app/media/pair_reader.h"
 #include "drivers/registry.h"
+#include "tests/support/byte_writer.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/failing_disk.h"
+#include "tests/support/film/real_backends.h"
 
 namespace relievo {
 namespace {
 
+using test::number;
 using test::sampleAt;
 using testing::Contains;
 using testing::HasSubstr;
 
 constexpr int kCols = 32, kRows = 24, kFrames = 4;
-const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
-
-template <class T>
-std::string number(T value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
 
 int codeAt(int c, int r, int frame) {
   return c == 0 && r == 0 ? 0 : 1000 + 10 * c + 3 * r + frame;

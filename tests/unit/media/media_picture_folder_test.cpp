@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "app/media/pair_reader.h"
-#include "drivers/registry.h"
 #include "platform/whole_file.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/real_backends.h"
 
 namespace relievo {
 namespace {
@@ -19,8 +19,6 @@ namespace {
 using namespace std::chrono_literals;
 using test::sampleAt;
 using test::TemporaryFolder;
-
-const PairReader::Backends kReal{.make_source = drivers::makeMediaSource, .make_decoder = drivers::makeSoftwareDecoder};
 
 class PictureFolder : public testing::Test {
  protected:

@@ -18,8 +18,8 @@
 #include "app/media/pair_reader.h"
 #include "app/stereo/stereo_depth.h"
 #include "app/stereo/stereo_survey.h"
-#include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/ffmpeg_backends.h"
 
 namespace relievo {
 namespace {
@@ -84,9 +84,6 @@ Both compare(const std::string& name, const ViewPicture& left, const ViewPicture
   return both;
 }
 
-const PairReader::Backends kBackends{[](const std::string&) { return makeFfmpegSource(); },
-                                     [](const StreamInfo&) { return makeFfmpegDecoder(); }};
-
 // A moment of the sample film: the left view, and its exact disparity.
 struct Moment {
   Frame left;
@@ -143,7 +140,7 @@ FramePair coded(const Frame& left, const Frame& right, const std::string& path) 
                                return yuvOf(x < left.width ? left : right, component, x % left.width, y);
                              },
                          .options = {{"crf", "18"}}}});
-  PairReader reader(kBackends);
+  PairReader reader(kFfmpeg);
   EXPECT_TRUE(reader.open({.url = path, .packing = Packing::StereoSideBySide}).has_value());
   return reader.next().value().value();
 }
@@ -187,7 +184,7 @@ Truth readDisparity(const std::string& path) {
 }
 
 ViewPicture readPicture(const std::string& path) {
-  PairReader reader(kBackends);
+  PairReader reader(kFfmpeg);
   EXPECT_TRUE(reader.open({.url = path}).has_value());
   return readView(reader.next().value().value().color);
 }
