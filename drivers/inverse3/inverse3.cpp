@@ -2,6 +2,7 @@
 // Each tick takes the newest answer as the position, and sends the force in a message of its own.
 #include "drivers/inverse3/inverse3.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -25,9 +26,11 @@ constexpr Duration kTick = 1ms;
 // than it seems: no force acts for 20 ms without a new position.
 constexpr Duration kPatience = 6ms;
 constexpr Duration kFirstWords = 2s;
-constexpr int kMostMessages = 16;  // per tick, so that a service that floods cannot delay it
-constexpr int kMostUnknown = 100;  // ticks in a row without a new position
-constexpr int kFirmReady = 5;      // answers in a row that all say "ready", and that it is unlisted
+constexpr int kMostMessages = 16;         // per tick, so that a service that floods cannot delay it
+constexpr Duration kMostUnknown = 100ms;  // of ticks in a row without a new position
+// More than this between two ticks is the task's delay, and no silence of the service.
+constexpr Duration kLongestTick = 2ms;
+constexpr int kFirmReady = 5;  // answers in a row that all say "ready", and that it is unlisted
 
 // Before 3.5 the origin is the base. Published programs for these versions hold the handle here, in m.
 constexpr glm::dvec3 kCentreM{0, -0.15, 0.19};
@@ -137,7 +140,7 @@ class Inverse3 final : public HapticDevice {
 
   Result<void> waitUntilReady() {
     int firm = 0;
-    unlisted_ = unknown_ = 0;
+    beginToLook();
     gate_.forget();
     while (firm < kFirmReady) {
       if (cancelled()) return fail(ErrorCode::Cancelled, "homing the Inverse3 was cancelled");
@@ -153,7 +156,7 @@ class Inverse3 final : public HapticDevice {
   }
 
   Result<void> startDevice() override {
-    unlisted_ = unknown_ = 0;
+    beginToLook();
     if (auto begun = session_.beginForces(message_.with({}), config_.watchdog_thread); !begun) return begun;
     if (auto sent = channel_.post(message_.with({})); !sent) {
       session_.end();
@@ -218,8 +221,15 @@ class Inverse3 final : public HapticDevice {
     return true;
   }
 
+  void beginToLook() {
+    unlisted_ = 0;
+    unknown_ = {};
+    looked_ = clock_.now();
+  }
+
   Result<void> alive(bool answered, bool fresh) RELIEVO_RT {
-    unknown_ = fresh ? 0 : unknown_ + 1;
+    const Duration since = std::min(clock_.now() - std::exchange(looked_, clock_.now()), kLongestTick);
+    unknown_ = fresh ? Duration{0} : unknown_ + since;
     if (!session_.listened(answered, clock_.now() - measured_ <= kPatience))
       return fail(ErrorCode::Lost, "the Haply Inverse service stopped answering; restart it if it does not return");
     if (unknown_ >= kMostUnknown)
@@ -240,7 +250,8 @@ class Inverse3 final : public HapticDevice {
   HapticSample sample_;
   MonotonicTime measured_;  // not earlier than this
   int unlisted_ = 0;        // answers in a row without this device
-  int unknown_ = 0;         // ticks in a row without a new position
+  Duration unknown_{0};     // how long there has been no new position
+  MonotonicTime looked_;    // for one
 };
 
 }  // namespace

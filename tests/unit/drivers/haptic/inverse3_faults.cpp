@@ -65,6 +65,25 @@ TEST_P(Inverse3Device, ASilentServiceGetsNoForceAndIsLost) {
   EXPECT_LE(bench.clock.now() - silent, 110ms);
 }
 
+// It answers, but with places where no hand can be.
+TEST_P(Inverse3Device, AnswersWithoutAPositionAreLostAfterTheSameTimeAtEachRate) {
+  for (const double asked_hz : {500.0, 1000.0, 4000.0}) {
+    SCOPED_TRACE(asked_hz);
+    Bench one(GetParam());
+    ASSERT_TRUE(one.device->setRate(asked_hz));
+    const Duration tick = fromSeconds(1 / one.device->capabilities().rate_hz);
+    ASSERT_TRUE(one.bringUp());
+    one.service.faults.misplaces = 1;
+    const MonotonicTime since = one.clock.now();
+    while (one.device->read() && one.clock.now() - since < 1s) {
+      ASSERT_TRUE(one.device->write({0, 0, 3}));
+      one.clock.advance(tick);
+    }
+    EXPECT_GE(one.clock.now() - since, 95ms);
+    EXPECT_LE(one.clock.now() - since, 110ms);
+  }
+}
+
 TEST_P(Inverse3Device, ForcesThatNoLongerComeEndWithin20Ms) {
   ASSERT_TRUE(bench.bringUp());
   bench.push({0, 0, 3});
