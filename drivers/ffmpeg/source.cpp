@@ -32,7 +32,8 @@ using namespace ffmpeg;
 
 constexpr Duration kFlowPatience = std::chrono::seconds(3);  // for a real-time stream
 constexpr Duration kNap = std::chrono::milliseconds(2);      // between retries after AVERROR(EAGAIN)
-constexpr const char* kCannotSeek = "a live stream or a pipe cannot seek; save it to a file first";
+constexpr const char* kCannotSeek =
+    "a live stream, a pipe, or a server that gives only whole files cannot seek; save it to a file first";
 constexpr std::size_t kTagPackets = 512;  // searched for a key frame of each stream
 // In a real-time stream: relievo-author's key frames are up to two seconds apart.
 constexpr Duration kFlowTagTime = std::chrono::milliseconds(2500);
@@ -227,7 +228,10 @@ class FfmpegSource final : public MediaSource {
 
   Result<void> seekTo(MediaTime target) override {
     if (watch().cancelled()) return std::unexpected(watch().explain({}));
-    if (opener_.input().isPipe()) return fail(ErrorCode::Unsupported, kCannotSeek);
+    // Where a multiplex cannot be searched, FFmpeg stays at its place and calls that sought.
+    const bool in_vain =
+        seeksByBytes() && context_->pb != nullptr && (context_->pb->seekable & AVIO_SEEKABLE_NORMAL) == 0;
+    if (opener_.input().isPipe() || in_vain) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch().begin(kReadPatience, lateReading(address_.way));
     const bool onwards = target > MediaTime{};

@@ -82,5 +82,24 @@ TEST(FfmpegSource, AnIndexBehindThePicturesIsToldWhereNothingCanGoBack) {
   writer.join();
 }
 
+TEST(FfmpegSource, AMultiplexFromAServerOfWholeFilesCannotSeekAndGoesOn) {
+  TemporaryFolder folder;
+  makeClip(folder / "a.ts", {kH264});
+  test::HttpServer server(folder / "");
+  server.ranges = false;
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(server.url("a.ts")));
+  for (const double at_s : {1.0, 0.0}) {
+    const auto sought = source->seek(mediaTime(at_s));
+    ASSERT_FALSE(sought) << at_s;
+    EXPECT_EQ(sought.error().code, ErrorCode::Unsupported);
+  }
+  EXPECT_EQ(readAll(*source).size(), 48U);
+  server.ranges = true;
+  const auto other = makeFfmpegSource();
+  ASSERT_TRUE(other->open(server.url("a.ts")));
+  EXPECT_TRUE(other->seek(mediaTime(1)));
+}
+
 }  // namespace
 }  // namespace relievo
