@@ -20,12 +20,19 @@ using Steady = std::chrono::steady_clock;
 
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at what may interrupt
 constexpr auto kGrace = std::chrono::milliseconds(200);  // in which FFmpeg usually ends when it is told to
+constexpr int kMostLeft = 8;
+constexpr Error kTooManyLeft{
+    ErrorCode::Exhausted, 0,
+    "8 films that were given up are still being opened, and nothing can end that; wait, or start the program again"};
+
+std::atomic<int> left_behind = 0;  // openings that still run, and that nobody waits for
 
 struct Call {
   const std::shared_ptr<Input> input;
   std::mutex mutex;
   std::condition_variable ended;
   std::optional<Result<Input::Opened>> opened;
+  bool left = false;
 };
 
 Result<Input::Opened> openKept(const std::shared_ptr<Input>& input, const std::string& url) {
@@ -39,6 +46,7 @@ void run(Call& call, const std::string& url) {
   auto opened = openKept(call.input, url);
   const std::scoped_lock lock(call.mutex);
   call.opened = std::move(opened);
+  if (call.left) --left_behind;
   call.ended.notify_one();
 }
 
@@ -59,10 +67,13 @@ bool hasEnded(Call& call) {
     if (!watch.givesUp()) told.reset();
     else if (!told) told = Steady::now();
   }
-  return call.opened.has_value();
+  call.left = !call.opened;
+  if (call.left) ++left_behind;
+  return !call.left;
 }
 
 Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::string& url) {
+  if (left_behind >= kMostLeft) return std::unexpected(kTooManyLeft);
   input->watch().begin(kOpenPatience);
   passOn(input->watch());  // a short film would be open before the first look
   const auto call = std::make_shared<Call>(input);
