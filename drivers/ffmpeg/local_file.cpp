@@ -73,7 +73,7 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     return std::unexpected(file.error());
   }
   if (hasTooManyTexts(*file)) return fail(ErrorCode::Unsupported, kTooManyTexts);
-  if (hasTooManyTags(*file)) return fail(ErrorCode::Unsupported, kTooManyTags);
+  if (const char* const why = tooManyTags(*file)) return fail(ErrorCode::Unsupported, why);
   auto local = std::make_unique<LocalFile>(std::move(*file), &watch);
   auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   AVIOContext* const context =

@@ -32,11 +32,11 @@ class Counter {
  public:
   explicit Counter(const AnsweredFile& file) noexcept : file_(file) {}
 
-  bool findsTooMany() {
+  const char* find() {
     const auto header = elementAt(0);
-    if (!header || header->id != kHeader) return false;
+    if (!header || header->id != kHeader) return nullptr;
     const auto segment = elementAt(header->data + header->bytes);
-    if (!segment || segment->id != kSegment) return false;
+    if (!segment || segment->id != kSegment) return nullptr;
     segment_ = segment->data;
     for (std::uint64_t place = segment_; const auto element = elementAt(place);) {
       if (element->id == kCluster || element->bytes == kUnknown) break;
@@ -47,7 +47,7 @@ class Counter {
       const auto element = elementAt(sought_[i]);
       if (element && element->bytes != kUnknown) note(*element);
     }
-    return tags_ > kMostTags;
+    return tags_ > kMostTags ? kTooManyTags : too_long_;
   }
 
  private:
@@ -78,7 +78,7 @@ class Counter {
   }
 
   void note(const Element& element) {
-    if (element.id == kChapters && element.bytes > kMostBytes) tags_ = kMostTags + 1;
+    if (element.id == kChapters && element.bytes > kMostBytes) too_long_ = kTooLongChapters;
     if (element.id == kTags) countTags(element);
     if (element.id == kSeekHead) followSeeks(element);
   }
@@ -89,7 +89,7 @@ class Counter {
     counted_.push_back(tags.data);
     std::vector<std::uint8_t> bytes(std::min<std::size_t>(tags.bytes, kMostBytes + 1));
     bytes.resize(file_.read(tags.data, bytes).value_or(0));
-    if (bytes.size() > kMostBytes) tags_ = kMostTags + 1;
+    if (bytes.size() > kMostBytes) too_long_ = kTooLongTags;
     for (auto at = bytes.begin(); tags_ <= kMostTags; ++tags_, ++at) {
       at = std::search(at, bytes.end(), kSimpleTag.begin(), kSimpleTag.end(),
                        [](std::uint8_t byte, char sought) { return byte == static_cast<std::uint8_t>(sought); });
@@ -118,12 +118,13 @@ class Counter {
   std::uint64_t segment_ = 0;
   std::vector<std::uint64_t> sought_, counted_;
   int looked_at_ = 0, tags_ = 0;
+  const char* too_long_ = nullptr;
 };
 
 }  // namespace
 
-bool hasTooManyTags(const AnsweredFile& file) {
-  return Counter(file).findsTooMany();
+const char* tooManyTags(const AnsweredFile& file) {
+  return Counter(file).find();
 }
 
 }  // namespace relievo::ffmpeg

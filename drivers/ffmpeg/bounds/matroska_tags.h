@@ -10,11 +10,17 @@ namespace relievo::ffmpeg {
 // 100,000 tags take FFmpeg three minutes, in which nothing can interrupt it; programs write a few for each track.
 inline constexpr int kMostTags = 5000;
 inline constexpr const char* kTooManyTags =
-    "it is a Matroska film with more than 5000 tags, or 1 MiB of tags or chapters, the most that it may have; convert "
-    "it without them: ffmpeg -i FILE -map 0 -map_metadata -1 -map_chapters -1 -c copy film.mp4";
+    "it is a Matroska film with more than 5000 tags, the most that it may have; convert it without them: ffmpeg -i "
+    "FILE -map 0 -map_metadata -1 -c copy film.mp4";
+inline constexpr const char* kTooLongTags =
+    "it is a Matroska film whose tags are longer than 1 MiB, the most that they may be; convert it without them: "
+    "ffmpeg -i FILE -map 0 -map_metadata -1 -c copy film.mp4";
+inline constexpr const char* kTooLongChapters =
+    "it is a Matroska film whose chapters are longer than 1 MiB, the most that they may be; convert it without them: "
+    "ffmpeg -i FILE -map 0 -map_chapters -1 -c copy film.mp4";
 
-// Looks where FFmpeg looks: before the first cluster, and where seek heads point to. False for what is no Matroska, and
-// for what cannot be read.
-[[nodiscard]] bool hasTooManyTags(const AnsweredFile& file);
+// Which of these holds, or null. Looks where FFmpeg looks: before the first cluster, and where seek heads point to.
+// Null for what is no Matroska, and for what cannot be read.
+[[nodiscard]] const char* tooManyTags(const AnsweredFile& file);
 
 }  // namespace relievo::ffmpeg

@@ -77,9 +77,16 @@ TEST_F(FilmWithTags, MoreThan5000OfMatroskaAreRefusedBeforeFFmpegReadsThem) {
   EXPECT_EQ(error.code, ErrorCode::Unsupported);
   EXPECT_THAT(error.message, HasSubstr("more than 5000 tags"));
   EXPECT_EQ(openErrorOf(with(tags(2600) + tags(2600))).code, ErrorCode::Unsupported) << "in two parts";
-  EXPECT_EQ(openErrorOf(with(element(kTags, std::string(1100000, 'x')))).code, ErrorCode::Unsupported) << "over 1 MiB";
+}
+
+TEST_F(FilmWithTags, Over1MiBOfTagsOrChaptersIsSaidAsSuch) {
+  const Error tags = openErrorOf(with(element(kTags, std::string(1100000, 'x'))));
+  EXPECT_EQ(tags.code, ErrorCode::Unsupported);
+  EXPECT_THAT(tags.message, HasSubstr("whose tags are longer than 1 MiB"));
   const std::string edition = element("\x45\xB9", element("\xEC", std::string(1100000, 'x')));
-  EXPECT_EQ(openErrorOf(with(element("\x10\x43\xA7\x70", edition))).code, ErrorCode::Unsupported) << "chapters";
+  const Error chapters = openErrorOf(with(element("\x10\x43\xA7\x70", edition)));
+  EXPECT_EQ(chapters.code, ErrorCode::Unsupported);
+  EXPECT_THAT(chapters.message, HasSubstr("whose chapters are longer than 1 MiB"));
 }
 
 TEST_F(FilmWithTags, ThoseThatASeekHeadPointsToAreCountedOnce) {
