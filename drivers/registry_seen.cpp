@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "drivers/egl/egl.h"
@@ -29,6 +30,18 @@ DeviceState lookAt(const char* kind, const char* name, const Outcome<std::unique
   const auto opened = (*made)->open(setup...);
   (*made)->close();
   return {kind, name, opened.has_value(), opened ? "ready" : opened.error().message};
+}
+
+// A sound server that has to be started first answers late.
+DeviceState lookAtSound(Clock& clock) {
+  const auto made = makeAudioOutput("alsa", clock);
+  for (const MonotonicTime until = clock.now() + std::chrono::seconds(3); made && clock.now() < until;) {
+    const auto opened = (*made)->open({});
+    (*made)->close();
+    if (opened || opened.error().code != ErrorCode::Timeout) break;
+    clock.sleepUntil(clock.now() + std::chrono::milliseconds(50));
+  }
+  return lookAt("audio", "alsa", made, AudioFormat{});
 }
 
 DeviceState windowsMouse(bool desktop) {
@@ -74,7 +87,7 @@ std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& cl
 #endif
   states.push_back(lookAt("display", "window", makeDisplay("window"), DisplayConfig{}));
   const bool desktop = states.back().there;
-  states.push_back(lookAt("audio", "alsa", makeAudioOutput("alsa", clock), AudioFormat{}));
+  states.push_back(lookAtSound(clock));
   const auto look = [&](const char* name) {
     states.push_back(lookAt("haptic", name, makeHapticDevice(name, clock, settings)));
   };

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound output by ALSA in non-blocking mode.
+// Sound output by ALSA, whose calls may hang.
 #include "drivers/alsa/alsa.h"
 
 #include <alsa/asoundlib.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cerrno>
-#include <cmath>
+#include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "platform/files/file_system_answer.h"
+#include "drivers/alsa/card.h"
+#include "drivers/alsa/one_call.h"
 
 namespace relievo {
 namespace {
 
-constexpr unsigned kBufferUs = 500'000;
-constexpr unsigned kPeriodUs = 20'000;
-constexpr std::size_t kConvertedAtOnce = 2048;  // samples
-constexpr Duration kServerPatience = std::chrono::seconds(3);
+using namespace std::chrono_literals;
+using alsa::Card;
+
+constexpr Duration kServerPatience = 3s;
+constexpr Error kNotYet{ErrorCode::Timeout, 0, "the sound server does not answer; start it anew"};
 
 // Keeps alsa-lib from printing to stderr; the program prints its own messages.
 void printNothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*text*/,
@@ -46,131 +46,13 @@ Error openError(int code) noexcept {
   }
 }
 
-// A card, as a helper thread uses it: it opens it, and the last one that holds it closes it.
-class Card {
- public:
-  Card(const AudioFormat& asked, std::shared_ptr<Card> other)
-      : wished(asked), format(asked), before(std::move(other)) {}
-  ~Card() { close(); }
-  Card(const Card&) = delete;
-  Card& operator=(const Card&) = delete;
-
-  void open(const std::string& device) {
-    before.reset();
-    refused = snd_pcm_open(&pcm_, device.c_str(), SND_PCM_STREAM_PLAYBACK, SND_PCM_NONBLOCK);
-    if (refused < 0) pcm_ = nullptr;
-    else unfit = configure();
-    if (unfit < 0) close();
-    done = true;
-  }
-
-  // How many frames it took, or ALSA's error.
-  snd_pcm_sframes_t write(std::span<const float> samples) {
-    const auto channels = static_cast<std::size_t>(format.channels);
-    const std::size_t frames = samples.size() / channels;
-    std::size_t taken_before = 0;
-    bool recovered = false;
-    while (taken_before < frames) {
-      // Ask for the room first, since snd_pcm_writei alone would not write less than a period.
-      snd_pcm_sframes_t taken = snd_pcm_avail_update(pcm_);
-      if (taken > 0) {
-        const std::size_t most = as_float_ ? frames : kConvertedAtOnce / channels;
-        const std::size_t count = std::min({frames - taken_before, static_cast<std::size_t>(taken), most});
-        taken = snd_pcm_writei(pcm_, native(samples.subspan(taken_before * channels, count * channels)), count);
-      }
-      if (taken == 0 || taken == -EAGAIN) break;
-      if (taken > 0) {
-        taken_before += static_cast<std::size_t>(taken);
-        continue;
-      }
-      // After an underrun or a suspend, restart the device.
-      const bool anew = (taken == -EPIPE || taken == -ESTRPIPE) && !std::exchange(recovered, true);
-      if (!anew || snd_pcm_prepare(pcm_) < 0) return taken;
-    }
-    return static_cast<snd_pcm_sframes_t>(taken_before);
-  }
-
-  struct Delay {
-    int code = 0;  // 0, or ALSA's error; -EPIPE: silent
-    snd_pcm_sframes_t frames = 0;
-  };
-  Delay delay() {
-    const snd_pcm_state_t state = snd_pcm_state(pcm_);
-    if (state == SND_PCM_STATE_DISCONNECTED) return {.code = -ENODEV};
-    if (state != SND_PCM_STATE_RUNNING) return {.code = -EPIPE};
-    snd_pcm_sframes_t available = 0, waiting = 0;
-    const int code = snd_pcm_avail_delay(pcm_, &available, &waiting);  // snd_pcm_delay might not report an underrun
-    return {code, waiting};
-  }
-
-  int drop() {
-    const int dropped = snd_pcm_drop(pcm_), prepared = snd_pcm_prepare(pcm_);
-    return dropped < 0 ? dropped : prepared;
-  }
-
-  const AudioFormat wished;
-  AudioFormat format;
-  std::shared_ptr<Card> before;    // is closed first
-  std::atomic<bool> done = false;  // what follows stands, and belongs to the player's thread
-  int refused = 0, unfit = 0;      // ALSA's errors
-  Duration buffer{0};
-
- private:
-  void close() {
-    if (pcm_ != nullptr) snd_pcm_close(std::exchange(pcm_, nullptr));
-  }
-
-  int configure() {
-    snd_pcm_hw_params_t* hardware = nullptr;
-    snd_pcm_hw_params_alloca(&hardware);
-    if (const int code = snd_pcm_hw_params_any(pcm_, hardware); code < 0) return code;
-    if (const int code = snd_pcm_hw_params_set_access(pcm_, hardware, SND_PCM_ACCESS_RW_INTERLEAVED); code < 0) {
-      return code;
-    }
-    as_float_ = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_FLOAT) >= 0;
-    if (!as_float_) {
-      if (const int code = snd_pcm_hw_params_set_format(pcm_, hardware, SND_PCM_FORMAT_S16); code < 0) return code;
-    }
-    auto channels = static_cast<unsigned>(format.channels);
-    auto rate = static_cast<unsigned>(format.rate_hz);
-    unsigned buffer_us = kBufferUs, period_us = kPeriodUs;
-    for (const int code : {snd_pcm_hw_params_set_channels_near(pcm_, hardware, &channels),
-                           snd_pcm_hw_params_set_rate_near(pcm_, hardware, &rate, nullptr),
-                           snd_pcm_hw_params_set_buffer_time_near(pcm_, hardware, &buffer_us, nullptr),
-                           snd_pcm_hw_params_set_period_time_near(pcm_, hardware, &period_us, nullptr),
-                           snd_pcm_hw_params(pcm_, hardware)}) {
-      if (code < 0) return code;
-    }
-    snd_pcm_uframes_t frames = 0;
-    if (const int code = snd_pcm_hw_params_get_buffer_size(hardware, &frames); code < 0) return code;
-    buffer = fromSeconds(static_cast<double>(frames) / rate);
-    format = {.rate_hz = static_cast<int>(rate), .channels = static_cast<int>(channels)};
-
-    snd_pcm_sw_params_t* software = nullptr;
-    snd_pcm_sw_params_alloca(&software);
-    if (const int code = snd_pcm_sw_params_current(pcm_, software); code < 0) return code;
-    if (const int code = snd_pcm_sw_params_set_start_threshold(pcm_, software, 1); code < 0) return code;
-    return snd_pcm_sw_params(pcm_, software);
-  }
-
-  const void* native(std::span<const float> samples) noexcept {
-    if (as_float_) return samples.data();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      converted_[i] = static_cast<std::int16_t>(std::lround(32767.0F * std::clamp(samples[i], -1.0F, 1.0F)));
-    }
-    return converted_.data();
-  }
-
-  snd_pcm_t* pcm_ = nullptr;
-  bool as_float_ = true;
-  std::array<std::int16_t, kConvertedAtOnce> converted_{};
-};
-
-// A plug-in for a sound server waits for the server's answer, also in non-blocking mode: all calls are made by a helper
-// thread. One that does not return costs that thread, and the card is lost.
+// A plug-in for a sound server waits for the server's answer, also in non-blocking mode: each call is made by a helper
+// thread. While one has not returned, the output takes nothing and is where it was heard last; after 3 s the card is
+// lost, and the thread with it.
 class AlsaOutput final : public AudioOutput {
  public:
-  AlsaOutput(std::string device, const Clock& clock) : device_(std::move(device)), clock_(clock) {
+  AlsaOutput(std::string device, const Clock& clock, AlsaPatience patience)
+      : device_(std::move(device)), clock_(clock), patience_(patience) {
     snd_lib_error_set_handler(printNothing);
   }
   ~AlsaOutput() override {
@@ -184,19 +66,24 @@ class AlsaOutput final : public AudioOutput {
   [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "alsa", .buffer = buffer_}; }
 
  private:
+  // What the last call wrote, and its kind.
+  struct Answer {
+    enum class Of : std::uint8_t { Nothing, Write, Delay, Drop } of = Of::Nothing;
+    snd_pcm_sframes_t code = 0;  // of a write: frames; negative: ALSA's error
+    snd_pcm_sframes_t waiting = 0;
+  };
+
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    constexpr Error kNotYet{ErrorCode::Timeout, 0, kSilentServer};
-    if (late_ != nullptr && !late_->done) return std::unexpected(kNotYet);
+    if (!call_.ended()) return std::unexpected(kNotYet);
     std::shared_ptr<Card> card = std::exchange(late_, nullptr);
-    if (card == nullptr || card->wished.rate_hz != wished.rate_hz || card->wished.channels != wished.channels) {
+    if (card == nullptr || card->wished != wished) {
       card = std::make_shared<Card>(wished, std::move(card));
-      const auto asked = server_.ask(kServer, [card, device = device_] { card->open(device); });
-      if (!asked && asked.error().code == ErrorCode::Timeout) {
-        const bool begun = card.use_count() > 1 || card->done;  // none is while an earlier call hangs
-        late_ = begun ? card : std::move(card->before);
+      const bool opened = call_.start([card, device = device_] { card->open(device); },
+                                      std::exchange(opened_before_, true) ? patience_.call : patience_.open);
+      if (!opened) {
+        late_ = std::move(card);
         return std::unexpected(kNotYet);
       }
-      if (!asked) return std::unexpected(asked.error());
     }
     if (card->refused < 0) return std::unexpected(openError(card->refused));
     if (card->unfit < 0) {
@@ -206,75 +93,124 @@ class AlsaOutput final : public AudioOutput {
     }
     card_ = std::move(card);
     buffer_ = card_->buffer;
-    written_ = 0;
+    answer_ = nullptr;
+    drops_ = false;
+    forget();
     return card_->format;
   }
 
+  // Frames that a late call took are counted by the next write, which begins with the same ones.
   Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
-    std::vector<float> copy(samples, samples + frames * static_cast<std::size_t>(card_->format.channels));
-    const auto taken = answerOf([copy = std::move(copy)](Card& card) { return card.write(copy); });
-    if (!taken) return std::unexpected(taken.error());
-    if (*taken < 0) return std::unexpected(lost(static_cast<int>(*taken)));
-    written_ += *taken;
-    return static_cast<std::size_t>(*taken);
+    const auto free = settle();
+    if (!free) return std::unexpected(free.error());
+    if (*free && untold_ == 0) {
+      std::vector<float> copy(samples, samples + frames * static_cast<std::size_t>(card_->format.channels));
+      const auto written = ask(
+          Answer::Of::Write, [copy = std::move(copy)](Card& card, Answer& answer) { answer.code = card.write(copy); });
+      if (!written) return std::unexpected(written.error());
+    }
+    const std::size_t told = std::min(untold_, frames);
+    untold_ -= told;
+    return told;
   }
 
-  // The time is read before and after the call, and the mean is taken. ALSA's own timestamps are not used: with some of
-  // its plug-ins they come from another clock.
   Result<std::optional<AudioPosition>> samplePosition() override {
-    const MonotonicTime before = clock_.now();
-    const auto delay = answerOf([](Card& card) { return card.delay(); });
-    const MonotonicTime after = clock_.now();
-    if (!delay) return std::unexpected(delay.error());
-    if (delay->code == -EPIPE || delay->code == -ESTRPIPE) return std::nullopt;
-    if (delay->code < 0) return std::unexpected(lost(delay->code));
-    return AudioPosition{written_ - delay->frames, before + (after - before) / 2};
+    const auto free = settle();
+    if (!free) return std::unexpected(free.error());
+    if (!*free) return heard_;
+    const auto asked = ask(Answer::Of::Delay, [](Card& card, Answer& answer) {
+      const Card::Delay delay = card.delay();
+      answer.code = delay.code;
+      answer.waiting = delay.frames;
+    });
+    if (!asked) return std::unexpected(asked.error());
+    return heard_;
   }
 
   Result<void> dropFrames() override {
-    const auto code = answerOf([](Card& card) { return card.drop(); });
-    if (!code) return std::unexpected(code.error());
-    if (*code < 0) return std::unexpected(lost(*code));
-    written_ = 0;
-    return {};
+    drops_ = true;
+    forget();
+    const auto free = settle();
+    return free ? Result<void>() : std::unexpected(free.error());
   }
 
   void closeOutput() noexcept override {
     if (card_ == nullptr) return;
-    static_cast<void>(server_.ask(kServer, [card = std::move(card_)]() mutable { card.reset(); }));
+    if (call_.ended()) call_.start([card = std::move(card_)]() mutable { card.reset(); }, patience_.call);
+    else call_.letGo(std::move(card_));  // the call that has not returned closes it
     card_ = nullptr;
   }
 
-  // What `call` returns, which must own all that it uses.
-  template <class Call>
-  auto answerOf(Call call) -> Result<decltype(call(std::declval<Card&>()))> {
-    const auto answer =
-        relievo::answerOf(kServer, [card = card_, call = std::move(call)] { return call(*card); }, server_);
-    if (answer) return answer;
-    card_ = nullptr;  // the helper thread still holds it
-    return fail(ErrorCode::Lost, answer.error().code == ErrorCode::Timeout ? kSilentServer : answer.error().message);
+  void forget() {
+    written_ = 0;
+    untold_ = 0;
+    heard_.reset();
   }
 
-  static Error lost(int code) noexcept {
-    return {ErrorCode::Lost, std::max(-code, 0), "the sound card has gone away; plug it in again"};
+  // Starts a call of the card. False if it has not returned yet.
+  Result<bool> ask(Answer::Of of, std::function<void(Card&, Answer&)> call) {
+    answer_ = std::make_shared<Answer>(Answer{.of = of});
+    asked_ = clock_.now();
+    const bool ended = call_.start([card = card_, answer = answer_, call = std::move(call)]() { call(*card, *answer); },
+                                   patience_.call);
+    if (!ended) return false;
+    auto taken = take(true);
+    return taken ? Result<bool>(true) : std::unexpected(taken.error());
   }
 
-  static constexpr const char* kServer = "/";  // all calls wait for the same one
-  static constexpr const char* kSilentServer = "the sound server does not answer within 3 s; start it anew";
+  // True when no call runs: what the last one wrote is taken, and what was to be dropped is.
+  Result<bool> settle() {
+    if (!call_.ended()) {
+      if (clock_.now() - asked_ < kServerPatience) return false;
+      call_.letGo(std::exchange(card_, nullptr));
+      return std::unexpected(Error{ErrorCode::Lost, 0, kNotYet.message});
+    }
+    if (auto taken = take(false); !taken) return std::unexpected(taken.error());
+    if (!std::exchange(drops_, false)) return true;
+    return ask(Answer::Of::Drop, [](Card& card, Answer& answer) { answer.code = card.drop(); });
+  }
+
+  // The time of a position is read before and after the call, and the mean is taken: it must be at once. ALSA's own
+  // timestamps are not used: with some of its plug-ins they come from another clock.
+  Result<void> take(bool at_once) {
+    const std::shared_ptr<Answer> answer = std::exchange(answer_, nullptr);
+    if (answer == nullptr) return {};
+    const bool silent = answer->of == Answer::Of::Delay && (answer->code == -EPIPE || answer->code == -ESTRPIPE);
+    if (answer->code < 0 && !silent) {
+      return fail(ErrorCode::Lost, "the sound card has gone away; plug it in again", static_cast<int>(-answer->code));
+    }
+    if (drops_) return {};  // it concerns what is to be dropped
+    if (answer->of == Answer::Of::Write) {
+      written_ += answer->code;
+      untold_ += static_cast<std::size_t>(answer->code);
+    }
+    if (silent) heard_.reset();
+    else if (answer->of == Answer::Of::Delay && at_once)
+      heard_ = AudioPosition{written_ - answer->waiting, asked_ + (clock_.now() - asked_) / 2};
+    return {};
+  }
 
   const std::string device_;
   const Clock& clock_;
-  FileSystemAnswers server_{kServerPatience};
+  const AlsaPatience patience_;
+  alsa::OneCall call_;
   std::shared_ptr<Card> card_;  // null: closed
   std::shared_ptr<Card> late_;  // a server that answers later is taken at the next try
+  bool opened_before_ = false;
   Duration buffer_{0};
-  std::int64_t written_ = 0;  // since `open` or the last flush
+
+  std::shared_ptr<Answer> answer_;  // of the call that was started last; null: taken
+  MonotonicTime asked_;             // when that was
+  bool drops_ = false;              // what the card holds is to be dropped before anything else
+  std::int64_t written_ = 0;        // frames, since `open` or the last flush
+  std::size_t untold_ = 0;          // of these, those that no `write` has returned yet
+  std::optional<AudioPosition> heard_;
 };
 
 }  // namespace
 
-std::unique_ptr<AudioOutput> makeAlsaOutput(std::string device, const Clock& clock) {
-  return std::make_unique<AlsaOutput>(std::move(device), clock);
+std::unique_ptr<AudioOutput> makeAlsaOutput(std::string device, const Clock& clock, AlsaPatience patience) {
+  return std::make_unique<AlsaOutput>(std::move(device), clock, patience);
 }
 
 }  // namespace relievo

@@ -18,6 +18,9 @@ constexpr double kSmoothing = 1.0 / 16;  // of a reading, in the end
 constexpr double kGainPerS = 0.2;
 constexpr double kSteeringStep = 1e-5;  // finer ones are not worth a new clock sample
 constexpr Duration kRetryPeriod = std::chrono::seconds(5);
+// A sound server that has not answered yet may soon.
+constexpr Duration kLatePeriod = std::chrono::milliseconds(200);
+constexpr Duration kServerPatience = std::chrono::seconds(3);
 constexpr Duration kMostLatency = std::chrono::seconds(1);
 constexpr int kMostRestarts = 5;
 constexpr Duration kMostLate = std::chrono::milliseconds(100);  // of a picture; more is a hitch
@@ -188,6 +191,7 @@ bool Sound::ready(MonotonicTime now) {
   output_->close();
   const auto opened = output_->open(*format_);
   if (opened && *opened == *format_) {
+    late_since_.reset();
     if (std::exchange(lost_, false)) news_ = News{"sound output back", "it is heard again"};
     return true;
   }
@@ -196,7 +200,13 @@ bool Sound::ready(MonotonicTime now) {
     other_ = *opened;
     news_ = News{"sound: the output has another rate or number of channels than before",
                  "this film goes on without sound; the next one has it"};
-  } else if (!lost_ && !std::exchange(told_, true)) {
+    return false;
+  }
+  if (opened.error().code != ErrorCode::Timeout) late_since_.reset();
+  else if (!late_since_) late_since_ = now;
+  const bool waits = late_since_ && now - *late_since_ < kServerPatience;
+  if (waits) next_try_ = now + kLatePeriod;
+  else if (!lost_ && !std::exchange(told_, true)) {
     news_ =
         News{std::string("sound: ") + opened.error().message, "the film plays without sound; the player tries again"};
   }

@@ -5,6 +5,8 @@
 #include <linux/input-event-codes.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "tests/scenario/sound/player_sound.h"
@@ -157,6 +159,49 @@ TEST_F(PlayerSound, OfACardThatIsRefusedTheFilmPlaysWithoutAndSaysSoOnce) {
   EXPECT_EQ(bench_.report.faults.size(), 1u);
   EXPECT_EQ(bench_.faults("sound: the mock sound card was told not to open"), 1u);
   EXPECT_EQ(silentMoments(), 500u);
+}
+
+// A sound server that answers from a time on.
+class LateServer final : public AudioOutput {
+ public:
+  LateServer(Clock& clock, std::unique_ptr<AudioOutput> card, Duration answers)
+      : clock_(clock), card_(std::move(card)), answers_(answers) {}
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return card_->capabilities(); }
+
+ private:
+  Result<AudioFormat> openOutput(const AudioFormat& wished) override {
+    if (clock_.now() < MonotonicTime(answers_)) return fail(ErrorCode::Timeout, "the server does not answer");
+    return card_->open(wished);
+  }
+  Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
+    return card_->write({samples, frames * static_cast<std::size_t>(card_->format().channels)});
+  }
+  Result<std::optional<AudioPosition>> samplePosition() override { return card_->position(); }
+  Result<void> dropFrames() override { return card_->flush(); }
+  void closeOutput() noexcept override { card_->close(); }
+
+  Clock& clock_;
+  std::unique_ptr<AudioOutput> card_;
+  Duration answers_;
+};
+
+TEST_F(PlayerSound, OfAServerThatAnswersLateIsHeardAsSoonAsItDoes) {
+  for (const auto& [answers, faults] : {std::pair<Duration, unsigned>(1500ms, 0), {3700ms, 1}}) {
+    SCOPED_TRACE(toSeconds(answers));
+    moments_.clear();
+    film(500);
+    bench_.make_output = [this, wait = answers](Clock& clock) {
+      return std::make_unique<LateServer>(clock, makeMockAudio({}, clock, bench_.ear),
+                                          clock.now().time_since_epoch() + wait);
+    };
+    playsWell();
+    EXPECT_EQ(bench_.faults("sound: the server does not answer"), faults);
+    EXPECT_EQ(bench_.report.faults.size(), faults);
+    ASSERT_EQ(moments_.size(), 500u);
+    EXPECT_FALSE(moments_[25].heard_s);
+    EXPECT_EQ(moments_[50].heard_s.has_value(), faults == 0) << "2 s";
+    EXPECT_TRUE(moments_[225].heard_s) << "9 s";
+  }
 }
 
 TEST_F(PlayerSound, AFilmWithoutSoundIsNotSaidToHaveAnOutput) {
