@@ -65,6 +65,13 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
     const YuvColor from = colorOf(knots[i]), along = minus(colorOf(knots[i + 1]), from);
     const float per = 1 / dot(along, along);
     pieces_.push_back({from, along, {along.y * per, along.u * per, along.v * per}});
+    float bends = 0;
+    if (i > 0) {
+      const YuvColor& before = pieces_[i - 1].along;
+      const YuvColor turn = minus(along, before);
+      bends = bends_.back().sum + std::sqrt(dot(turn, turn) / std::min(dot(along, along), dot(before, before)));
+    }
+    bends_.push_back({1 / std::hypot(along.u, along.v), bends});
   }
   per_piece_ = 1 / static_cast<float>(pieces_.size());
   constexpr Four kBegin{}, kEnd{1, 1, 1, 1};
@@ -116,6 +123,24 @@ ColorCurve::FourPoints ColorCurve::nearestOfFour(const FourColors& colors) const
   const Four distance2 = left_y * left_y + left_u * left_u + left_v * left_v;
   const Four on_piece = t < kBegin ? kBegin + std::numeric_limits<float>::infinity() : distance2;
   return {(first + t) * per_piece_, t > kEnd ? kBegin + std::numeric_limits<float>::infinity() : on_piece};
+}
+
+bool ColorCurve::isStraight(float s, float chroma) const RELIEVO_RT {
+  constexpr float kMostBend = 0.3F;
+  const auto last = static_cast<int>(bends_.size()) - 1;
+  const auto end = static_cast<float>(last + 1), place = s * end;
+  const auto bendAt = [&](float at) -> const Bend& {
+    return bends_[static_cast<std::size_t>(std::clamp(static_cast<int>(at), 0, last))];
+  };
+  const float reach = std::min(chroma * bendAt(place).per_chroma / 2, end);
+  if (closed_ && (place < reach || place + reach > end)) return false;
+  return bendAt(place + reach).sum - bendAt(place - reach).sum <= kMostBend;
+}
+
+double ColorCurve::meanPerColor() const noexcept {
+  double sum = 0;
+  for (const Piece& piece : pieces_) sum += 1 / std::sqrt(static_cast<double>(dot(piece.along, piece.along)));
+  return sum / (static_cast<double>(pieces_.size()) * static_cast<double>(pieces_.size()));
 }
 
 ColorCurve::Between ColorCurve::between(const YuvColor& color, float low, float high) const RELIEVO_RT {

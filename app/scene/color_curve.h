@@ -58,11 +58,20 @@ class ColorCurve {
   // How much the colour at s changes for a change of 1 in s.
   [[nodiscard]] YuvColor slopeAt(float s) const RELIEVO_RT;
   [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }
+  // Whether the curve is straight around s, as far as colours reach whose chroma differs by `chroma` at most: only then
+  // is their mean the colour of the mean s.
+  [[nodiscard]] bool isStraight(float s, float chroma) const RELIEVO_RT;
+  // How much s changes for a change of 1 in the colour, on average.
+  [[nodiscard]] double meanPerColor() const noexcept;
 
  private:
   static constexpr int kSide = 32;
   struct Piece {
     YuvColor from, along, per_length;  // per_length = along / |along|^2
+  };
+  struct Bend {
+    float per_chroma = 0;  // pieces, for a change of 1 in chroma
+    float sum = 0;         // of the bends from the first piece to this one
   };
   struct Place {
     float t = 0, distance = 0;  // squared
@@ -83,7 +92,8 @@ class ColorCurve {
   }
 
   std::vector<Piece> pieces_;
-  float per_piece_ = 0;  // of s
+  std::vector<Bend> bends_;  // of each piece
+  float per_piece_ = 0;      // of s
   bool closed_ = false;
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
 };

@@ -64,10 +64,10 @@ void ColorReading::sharesOfFour(const int* columns, int r, double* shares) const
 }
 
 double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  YuvColor mean;
-  if (!samples_.meanOfEvenBlock(c0, r0, block, mean)) return kHole;
-  const ColorCurve::Point point = curve_->nearest(mean);
-  return isSure(point) ? static_cast<double>(point.s) : kHole;
+  ColorSamples::Even even;
+  if (!samples_.meanOfEvenBlock(c0, r0, block, even)) return kHole;
+  const ColorCurve::Point point = curve_->nearest(even.mean);
+  return isSure(point) && curve_->isStraight(point.s, even.chroma) ? static_cast<double>(point.s) : kHole;
 }
 
 [[gnu::noinline]] double ColorReading::shareBeside(int c, int r, const YuvColor& own,

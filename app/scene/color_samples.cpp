@@ -2,6 +2,7 @@
 #include "app/scene/color_samples.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "app/scene/code_sums.h"
@@ -27,22 +28,31 @@ std::array<double, 3> toRgb(const Frame& frame, const std::array<double, 3>& sha
   return {red, (y - kr * red - kb * blue) / (1 - kr - kb), blue};
 }
 
-// Evenly spaced columns or rows of a component.
+// Evenly spaced columns or rows of a component, each of weight 2, but for those at the ends of which a block covers
+// half.
 struct Run {
   int first = 0, step = 1, count = 0;
+  std::uint32_t half_first = 0, half_last = 0;  // 1 if so
+
+  [[nodiscard]] int weight() const RELIEVO_RT { return 2 * count - static_cast<int>(half_first + half_last); }
 };
 
 // The run whose mean is that of a block's samples; none (count 0) if they fall on a subsampled component at uneven
-// steps. Of an odd number of samples, every other one has the same middle.
+// steps. Of an odd number of samples farther apart, every other one has the same middle.
 Run runOf(int origin, const SampledBlock::Places& places, int shift) RELIEVO_RT {
   const int first = origin + places.first;
-  if (shift == 0) return {first, places.step, places.count};
-  const bool odd = (places.count & 1) != 0, paired = places.step == 1 && (first & 1) == 0;
-  if (shift > 1 || !(odd || paired)) return {};
-  return {first >> 1, places.step, (places.count + 1) >> 1};
+  if (shift == 0) return {.first = first, .step = places.step, .count = places.count};
+  if (shift > 1) return {};
+  if (places.step == 1) {
+    const int last = first + places.count - 1, count = (last >> 1) - (first >> 1) + 1;
+    const auto odd = [](int at) { return static_cast<std::uint32_t>(at & 1); };
+    return {.first = first >> 1, .count = count, .half_first = odd(first), .half_last = 1 - odd(last)};
+  }
+  if ((places.count & 1) == 0) return {};
+  return {.first = first >> 1, .step = places.step, .count = (places.count + 1) >> 1};
 }
 
-// The sum, the least and the greatest of the codes added.
+// The weighted sum, the least and the greatest of the codes added.
 template <bool kWords>
 struct Spread {
   std::uint32_t mask, sum = 0, low = ~0U, high = 0;
@@ -50,29 +60,35 @@ struct Spread {
 
   // kAcross 0: the width is known only at run time.
   template <int kAcross>
-  void addRows(const CodeBlock& codes) RELIEVO_RT {
+  void addRows(const CodeBlock& codes, const Run& columns, const Run& rows) RELIEVO_RT {
     const int across = kAcross > 0 ? kAcross : codes.across;
+    const auto codeAt = [this](const std::uint8_t* at) -> std::uint32_t {
+      return kWords ? (at[0] | static_cast<std::uint32_t>(at[1]) << 8) >> shift & mask : at[0];
+    };
     const std::uint8_t* row = codes.first;
-    for (int left = codes.down; left > 0; --left, row += codes.stride_bytes) {
+    for (int j = 0; j < codes.down; ++j, row += codes.stride_bytes) {
+      std::uint32_t in_row = 0;
       for (int k = 0; k < across; ++k) {
-        const std::uint8_t* at = row + k * codes.step_bytes;
-        const std::uint32_t code = kWords ? (at[0] | static_cast<std::uint32_t>(at[1]) << 8) >> shift & mask : at[0];
-        sum += code;
+        const std::uint32_t code = codeAt(row + k * codes.step_bytes);
+        in_row += code;
         low = std::min(low, code);
         high = std::max(high, code);
       }
+      in_row = 2 * in_row - columns.half_first * codeAt(row) -
+               columns.half_last * codeAt(row + (across - 1) * codes.step_bytes);
+      sum += (2 - (j == 0 ? rows.half_first : 0) - (j == codes.down - 1 ? rows.half_last : 0)) * in_row;
     }
   }
-  void add(const CodeBlock& codes) RELIEVO_RT {
+  void add(const CodeBlock& codes, const Run& columns, const Run& rows) RELIEVO_RT {
     switch (codes.across) {  // a width known at compile time takes fewer instructions
       case 1:
-        return addRows<1>(codes);
+        return addRows<1>(codes, columns, rows);
       case 2:
-        return addRows<2>(codes);
+        return addRows<2>(codes, columns, rows);
       case 3:
-        return addRows<3>(codes);
+        return addRows<3>(codes, columns, rows);
       default:
-        return addRows<0>(codes);
+        return addRows<0>(codes, columns, rows);
     }
   }
 };
@@ -109,7 +125,7 @@ ColorSamples::ColorSamples(const Frame& frame) noexcept {
   }
 }
 
-// Adds the chroma of a block whose samples fall on it at uneven steps. Returns how many samples it added.
+// Adds the chroma of a block whose samples fall on it at uneven steps. Returns their weight.
 template <class Spread>
 [[gnu::noinline]] int ColorSamples::addOneByOne(int c0, int r0, const SampledBlock& block, Spread& u,
                                                 Spread& v) const RELIEVO_RT {
@@ -123,15 +139,15 @@ template <class Spread>
       const auto codeOf = [&](const Part& part) -> CodeBlock {
         return {.first = part.data + r * part.stride_bytes + static_cast<std::ptrdiff_t>(c) * part.step_bytes};
       };
-      u.add(codeOf(parts_[1]));
-      v.add(codeOf(parts_[2]));
+      u.add(codeOf(parts_[1]), {.count = 1}, {.count = 1});
+      v.add(codeOf(parts_[2]), {.count = 1}, {.count = 1});
     }
   }
-  return count;
+  return 4 * count;
 }
 
 template <bool kWords>
-bool ColorSamples::meanOf(int c0, int r0, const SampledBlock& block, YuvColor& color) const RELIEVO_RT {
+bool ColorSamples::meanOf(int c0, int r0, const SampledBlock& block, Even& even) const RELIEVO_RT {
   const auto codesOf = [](const Part& part, const Run& across, const Run& down) -> CodeBlock {
     return {.first = part.data + down.first * part.stride_bytes +
                      static_cast<std::ptrdiff_t>(across.first) * part.step_bytes,
@@ -143,25 +159,33 @@ bool ColorSamples::meanOf(int c0, int r0, const SampledBlock& block, YuvColor& c
   const Part &luma = parts_[0], &u = parts_[1], &v = parts_[2];
   Spread<kWords> of_u{.mask = mask_, .shift = u.shift}, of_v{.mask = mask_, .shift = v.shift};
   const Run columns = runOf(c0, block.across, shift_x_), rows = runOf(r0, block.down, shift_y_);
-  int count = columns.count * rows.count;
-  if (count > 0) {
-    of_u.add(codesOf(u, columns, rows));
-    of_v.add(codesOf(v, columns, rows));
+  int weight = columns.weight() * rows.weight();
+  if (weight > 0) {
+    of_u.add(codesOf(u, columns, rows), columns, rows);
+    of_v.add(codesOf(v, columns, rows), columns, rows);
   } else {
-    count = addOneByOne(c0, r0, block, of_u, of_v);
+    weight = addOneByOne(c0, r0, block, of_u, of_v);
   }
-  if (std::max(of_u.high - of_u.low, of_v.high - of_v.low) > (mask_ + 1) / 4) return false;
-  const CodeBlock all = codesOf(luma, runOf(c0, block.across, 0), runOf(r0, block.down, 0));
+  const std::uint32_t spread_u = of_u.high - of_u.low, spread_v = of_v.high - of_v.low;
+  if (std::max(spread_u, spread_v) > (mask_ + 1) / 4) return false;
+  const Run luma_columns = runOf(c0, block.across, 0), luma_rows = runOf(r0, block.down, 0);
+  const CodeBlock all = codesOf(luma, luma_columns, luma_rows);
   Spread<kWords> of_luma{.mask = mask_, .shift = luma.shift};
   if (kWords) {
-    of_luma.add(all);
+    of_luma.add(all, luma_columns, luma_rows);
   } else {
-    of_luma.sum = sumOfBytes(all);
+    of_luma.sum = 4 * sumOfBytes(all);
   }
   const auto mean = [](std::uint32_t sum, int codes) {
     return static_cast<float>(static_cast<int>(sum)) / static_cast<float>(codes);
   };
-  color = colorOf(mean(of_luma.sum, all.across * all.down), mean(of_u.sum, count), mean(of_v.sum, count));
+  even.mean = colorOf(mean(of_luma.sum, luma_columns.weight() * luma_rows.weight()), mean(of_u.sum, weight),
+                      mean(of_v.sum, weight));
+  const auto by = [&](std::size_t row) {
+    return std::abs(rows_[row][1]) * static_cast<float>(static_cast<int>(spread_u)) +
+           std::abs(rows_[row][2]) * static_cast<float>(static_cast<int>(spread_v));
+  };
+  even.chroma = std::sqrt(by(1) * by(1) + by(2) * by(2));
   return true;
 }
 
@@ -179,7 +203,7 @@ YuvColor ColorSamples::interpolatedAt(int c, int r, int cols, int rows) const RE
   return {own.y, mean(own.u, across.u, down.u, both.u), mean(own.v, across.v, down.v, both.v)};
 }
 
-bool ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block, YuvColor& mean) const RELIEVO_RT {
+bool ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block, Even& even) const RELIEVO_RT {
   const auto &across = block.across, &down = block.down;
   const int c = c0 + across.first, r = r0 + down.first;
   const int past_c = c + (across.count - 1) * across.step, past_r = r + (down.count - 1) * down.step;
@@ -190,10 +214,17 @@ bool ColorSamples::meanOfEvenBlock(int c0, int r0, const SampledBlock& block, Yu
       for (int at_c = c; at_c <= past_c; at_c += across.step) luma += codeAt(0, at_c, at_r);
     }
     const auto count = static_cast<float>(across.count * down.count);
-    mean = colorOf(luma / count, codeAt(1, chroma_c, chroma_r), codeAt(2, chroma_c, chroma_r));
+    even = {colorOf(luma / count, codeAt(1, chroma_c, chroma_r), codeAt(2, chroma_c, chroma_r)), 0};
     return true;
   }
-  return words_ ? meanOf<true>(c0, r0, block, mean) : meanOf<false>(c0, r0, block, mean);
+  return words_ ? meanOf<true>(c0, r0, block, even) : meanOf<false>(c0, r0, block, even);
+}
+
+double ColorSamples::step() const noexcept {
+  double most = 0;
+  for (const auto& row : rows_)
+    for (std::size_t i = 0; i < 3; ++i) most = std::max(most, static_cast<double>(std::abs(row[i])));
+  return most;
 }
 
 bool ColorSamples::sameChroma(const ColorSamples& other, int cols, int rows) const noexcept {

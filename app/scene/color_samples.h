@@ -41,9 +41,16 @@ class ColorSamples {
   // The colour of (c, r) with chroma interpolated to its place, from the four chroma samples around it. `cols` and
   // `rows`: of the picture.
   [[nodiscard]] YuvColor interpolatedAt(int c, int r, int cols, int rows) const RELIEVO_RT;
-  // The mean colour of the block's samples; false, and none, if the second or third component varies by more than a
-  // quarter of full scale. (An optional would be put together in memory, which costs more than reading a small block.)
-  [[nodiscard]] bool meanOfEvenBlock(int c0, int r0, const SampledBlock& block, YuvColor& mean) const RELIEVO_RT;
+  // The mean colour of the block's samples, and by how much their chroma differs; false, and none, if the second or
+  // third component varies by more than a quarter of full scale. (An optional would be put together in memory, which
+  // costs more than reading a small block.)
+  struct Even {
+    YuvColor mean;
+    float chroma = 0;
+  };
+  [[nodiscard]] bool meanOfEvenBlock(int c0, int r0, const SampledBlock& block, Even& even) const RELIEVO_RT;
+  // What one code changes in the colour.
+  [[nodiscard]] double step() const noexcept;
   // Whether the second and third components of two pictures of the same format and size are equal.
   [[nodiscard]] bool sameChroma(const ColorSamples& other, int cols, int rows) const noexcept;
   // Whether the other picture has the same format, wherever it lies.
@@ -64,7 +71,7 @@ class ColorSamples {
     return {part(rows_[0]), part(rows_[1]), part(rows_[2])};
   }
   template <bool kWords>
-  [[nodiscard]] bool meanOf(int c0, int r0, const SampledBlock& block, YuvColor& color) const RELIEVO_RT;
+  [[nodiscard]] bool meanOf(int c0, int r0, const SampledBlock& block, Even& even) const RELIEVO_RT;
   template <class Spread>
   int addOneByOne(int c0, int r0, const SampledBlock& block, Spread& u, Spread& v) const RELIEVO_RT;
   [[nodiscard]] float codeAt(std::size_t part, int c, int r) const RELIEVO_RT {

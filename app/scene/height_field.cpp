@@ -96,18 +96,27 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
     if (!std::isnan(mean)) return mean;
   }
-  // Reading colours is costly: in a block with an edge, every other sample is read, as on a chessboard.
-  const int stride = layout_ == Layout::Curve ? 2 : 1;
   double sum = 0;
   int count = 0, looked = 0;
+  const auto add = [&](double z) {
+    ++looked;
+    if (std::isnan(z)) return;
+    sum += z;
+    ++count;
+  };
+  // Reading colours is costly: in a block where they differ, every other sample is read, as on a chessboard.
+  const int stride = layout_ == Layout::Curve ? 2 : 1;
   for (int j = 0; j < block.down.count; ++j) {
     const int r = r0 + block.down.first + j * block.down.step;
-    for (int i = j % stride; i < block.across.count; i += stride, ++looked) {
-      const double z = heightMm(c0 + block.across.first + i * block.across.step, r);
-      if (std::isnan(z)) continue;
-      sum += z;
-      ++count;
+    const auto column = [&](int i) { return c0 + block.across.first + i * block.across.step; };
+    int i = j % stride;
+    for (; layout_ == Layout::Curve && i + 3 * stride < block.across.count; i += 4 * stride) {
+      const std::array<int, 4> columns{column(i), column(i + stride), column(i + 2 * stride), column(i + 3 * stride)};
+      std::array<double, 4> shares;
+      colors_.sharesOfFour(columns.data(), r, shares.data());
+      for (const double share : shares) add(heightOfColor(steps_ * share));
     }
+    for (; i < block.across.count; i += stride) add(heightMm(column(i), r));
   }
   return 2 * count < looked ? kHole : sum / count;
 }

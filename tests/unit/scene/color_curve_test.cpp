@@ -181,8 +181,8 @@ TEST(HueOverYuv, ALowStepIsAsSharpAsItsBrightness) {
   for (int c = 0; c < 48; ++c) EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.02) << c;
 }
 
-// Colours from red to yellow are on a straight line, so that a block's mean is the height of its middle. Of an odd
-// number of samples, those of chroma are off by up to half a sample.
+// Colours from red to yellow are on a straight line, so that a block's mean is the height of its middle. At its ends a
+// block may cover half of a chroma sample.
 TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
   constexpr double kBegin = 0.02, kRise = 0.005;
   for (const bool across : {true, false}) {
@@ -194,10 +194,23 @@ TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
       for (int k = 0; k < 2 * (25 - size); ++k) {
         const int begin = k / 2, other = 2 + k % 2, c = across ? begin : other, r = across ? other : begin;
         const double middle = kBegin + kRise * (begin + (size - 1) / 2.0);
-        EXPECT_NEAR(field.meanHeight(c, r, {size, size, most}), middle, size % 2 == 0 ? 0.001 : 0.002)
+        EXPECT_NEAR(field.meanHeight(c, r, {size, size, most}), middle, 0.001)
             << size << ' ' << begin << (across ? " across" : " down");
       }
     }
+  }
+}
+
+// At yellow the curve turns: the mean of colours on both sides lies off it, nearer to a place beside the mean height.
+TEST(HueOverYuv, TheMeanOfABlockWithACornerOfTheCurveIsThatOfItsSamples) {
+  constexpr double kRise = 0.005;
+  constexpr int kSize = 16;
+  const Film film{.cols = 48, .rows = 32, .color = [](int c, int) { return hue(0.05 + kRise * c); }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  for (int c = 0; c + kSize <= film.cols; ++c) {
+    const double middle = 0.05 + kRise * (c + (kSize - 1) / 2.0);
+    EXPECT_NEAR(field.meanHeight(c, 4, {kSize, kSize, 8}), middle, 0.002) << c;
   }
 }
 
