@@ -117,7 +117,8 @@ ClipMeasure measureClip(std::span<const TimedSurface> frames) {
   m.ripples = ripplesOf(frames);
   // A quantised slope bends by one step at every other sample: subtract what the quantum explains.
   const double deviation = quantile(across.bends, 0.5) / (kMedianOfNormal * std::sqrt(kBendVariance));
-  const double quantum = std::isfinite(across.quantum) ? across.quantum : m.quantum_mm;
+  const bool shows_steps = std::isfinite(across.quantum) && !frames.front().field.mixesCodes();
+  const double quantum = shows_steps ? across.quantum : m.quantum_mm;
   const double of_quantum = kStepAsNoise * quantum;
   const double noise = std::sqrt(std::max(deviation * deviation - of_quantum * of_quantum, 0.0));
   const double stretch = std::sqrt(across.stretch2 / places);

@@ -42,6 +42,9 @@ class ColorReading {
   // mean height. A hole if they differ more, or stand for no depth.
   [[nodiscard]] double shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 
+  // What one code of the samples changes in the position, on average over the curve.
+  [[nodiscard]] double step() const noexcept { return curve_->meanPerColor() * samples_.step(); }
+
   // Whether chroma is equal in every sample; brightness is not compared. The other picture has this one's format.
   [[nodiscard]] bool sameChroma(const ColorReading& other) const noexcept {
     return samples_.sameChroma(other.samples_, cols_, rows_);

@@ -74,8 +74,13 @@ class HeightField {
   // Prefetches the samples that `meanHeight` reads for `blocks` adjacent blocks, the first at (c0, r0).
   void prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT;
   [[nodiscard]] double depthMm() const RELIEVO_RT { return depth_mm_; }
-  // The height of one code step, averaged over the volume.
-  [[nodiscard]] double stepMm() const RELIEVO_RT { return depth_mm_ * std::abs(s_scale_); }
+  // The height of one code step, averaged over the volume. Of colours that are not looked up by hue alone: of a step of
+  // the samples' own codes.
+  [[nodiscard]] double stepMm() const noexcept {
+    return depth_mm_ * std::abs(s_scale_) * (layout_ == Layout::Curve ? steps_ * colors_.step() : 1);
+  }
+  // Whether heights are a mixture of several codes, whose differences show no steps.
+  [[nodiscard]] bool mixesCodes() const noexcept { return layout_ == Layout::Curve; }
   // How high a code step is at a height, in parts of the average one; the inverse law has the highest steps far away.
   [[nodiscard]] double stretchAt(double height_mm) const RELIEVO_RT {
     if (!inverse_) return 1;

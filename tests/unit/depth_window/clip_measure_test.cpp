@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <span>
@@ -55,6 +56,44 @@ TEST(ClipMeasure, TellsRipplesFromHills) {
   };
   EXPECT_EQ(ripples(false), 0);
   EXPECT_GT(ripples(true), 0.1);
+}
+
+// A slope in hues, full range of BT.709, 4:4:4.
+Frame hueFrame(int cols, int rows) {
+  const auto samples = std::make_shared<std::vector<std::uint8_t>>();
+  const auto part = [&](int c, double n) {
+    return std::clamp(std::abs(std::fmod(0.1 + 0.5 * c / cols + n, 1.0) * 6 - 3) - 1, 0.0, 1.0);
+  };
+  for (int plane = 0; plane < 3; ++plane) {
+    for (int k = 0; k < cols * rows; ++k) {
+      const double red = part(k % cols, 0), green = part(k % cols, 2 / 3.0), blue = part(k % cols, 1 / 3.0);
+      const double y = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+      const double code = plane == 0 ? y : plane == 1 ? (blue - y) / 1.8556 : (red - y) / 1.5748;
+      samples->push_back(static_cast<std::uint8_t>(std::lround(255 * code) + (plane == 0 ? 0 : 128)));
+    }
+  }
+  Frame frame;
+  frame.width = cols;
+  frame.height = rows;
+  frame.model = ColorModel::Yuv;
+  frame.range = ColorRange::Full;
+  frame.matrix = ColorMatrix::Bt709;
+  for (std::uint8_t i = 0; i < 3; ++i) {
+    frame.components[i] = {.plane = i};
+    frame.planes[i] = {samples->data() + i * cols * rows, cols};
+  }
+  frame.owner = samples;
+  return frame;
+}
+
+// Three components mix to heights at any distance from each other. One code of the colour moves it along a sixth of the
+// circle by 1/255 of that sixth's length in luma and chroma: .93, .56, .51, .93, .56 and .51.
+TEST(ClipMeasure, TheStepsOfColoursAreThoseOfTheirCodes) {
+  const Frame frame = hueFrame(720, 64);
+  const DepthCalibration hue{.polarity = DepthPolarity::NearIsLow, .code = DepthCode::Hue};
+  const TimedSurface alone{HeightField::make(frame, hue, kVolume).value(), {}, frame.owner};
+  const double step = 40 / 6.0 / 255 * (2 / 0.934 + 2 / 0.556 + 2 / 0.508) / 6;
+  EXPECT_NEAR(measureClip(std::span(&alone, 1)).quantum_mm, step, 0.02 * step);
 }
 
 // A film at rest in four frames, each with its own noise.
