@@ -13,8 +13,8 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 9> kDepth{"xyz",  "depth",    "depths",    "disparity", "disparities",
-                                                 "disp", "depthmap", "depthcrop", "mist"};
+constexpr std::array<std::string_view, 10> kDepth{"xyz",  "depth",    "depths",    "disparity", "disparities",
+                                                  "disp", "depthmap", "depthcrop", "rawdepth",  "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
 constexpr std::array<std::string_view, 32> kOther{

@@ -24,7 +24,8 @@ constexpr double kNotRaw = 0.002;
 // For users who know the unit of a recording.
 constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,invalid=0";
 
-constexpr std::uint32_t kRawHole = 2047, kRawLowest = 300, kRawHighest = 1084;
+// Of 11 bits the highest is a hole; some recorders write the code beyond.
+constexpr std::uint32_t kRawHole = 2047, kRawHoleBeyond = 2048, kRawLowest = 300, kRawHighest = 1084;
 
 // Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
 // metre. No sensor sees nearer than .2 m, which is 1000 of those.
@@ -78,8 +79,8 @@ DepthReading readInverse(const CodeCount& count, const KnownKind& kind, const Co
 
 bool isRawKinect(const CodeCount& count) {
   const double outside = count.share(1, kRawLowest - 1) + count.share(kRawHighest + 1, kRawHole - 1);
-  return count.share(kRawHole + 1, kTop) == 0 && count.of(kRawHole) > 0 && outside < kNotRaw &&
-         count.share(kRawLowest, kRawHighest) > 0.05;
+  return count.share(kRawHoleBeyond + 1, kTop) == 0 && count.of(kRawHole) + count.of(kRawHoleBeyond) > 0 &&
+         outside < kNotRaw && count.share(kRawLowest, kRawHighest) > 0.05;
 }
 
 // A Kinect's codes of a view without a hole are also what near distances in mm may be.

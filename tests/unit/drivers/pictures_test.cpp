@@ -165,6 +165,10 @@ TEST_F(Pictures, LayersBesideColourAndDepthAreLeftOut) {
   EXPECT_THAT(read(folder_ / "in").color, ElementsAre("0 in/cam0/data/7.png"));
   file("uw/apple_crop.png"), file("uw/apple_depthcrop.png"), file("uw/apple_maskcrop.png");
   EXPECT_THAT(read(folder_ / "uw").depth, ElementsAre("0 uw/apple_depthcrop.png"));
+  // A Kinect's raw codes beside its colour.
+  file("raw/0001.ppm"), file("raw/rawdepth0001.ppm");
+  EXPECT_THAT(read(folder_ / "raw").color, ElementsAre("0 raw/0001.ppm"));
+  EXPECT_THAT(read(folder_ / "raw").depth, ElementsAre("0 raw/rawdepth0001.ppm"));
   // Names that hold a word of colour or depth, and one of a layer.
   for (const char* name : {"color", "depth", "color_mask", "depth_confidence"})
     file("scan/" + std::string(name) + "_1.png");

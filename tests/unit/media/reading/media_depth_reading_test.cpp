@@ -98,12 +98,15 @@ TEST(DepthReading, AKinectsPlayersStandBelowItsDistances) {
 }
 
 // The formula for a Kinect's raw disparities in depth_reading.cpp, inverted: code = 1092.5 - 351300/z.
+// Some recorders write 2048 for a hole.
 TEST(DepthReading, ElevenBitsWithAHoleOf2047AreTheDisparitiesOfAKinect) {
-  const Frame raw = picture(2047, [](double mm) { return 1092.5 - 351300 / mm; });
-  const DepthCalibration c = readingOf(raw);
-  EXPECT_EQ(c.law, DepthLaw::Inverse);
-  EXPECT_EQ(c.polarity, DepthPolarity::NearIsLow);
-  expectTrue(raw, 0.5 * 2000 * 2000 / 351300 + 1, "raw disparities");  // half a code at 2 m
+  for (const std::uint32_t hole : {2047U, 2048U}) {
+    const Frame raw = picture(hole, [](double mm) { return 1092.5 - 351300 / mm; });
+    const DepthCalibration c = readingOf(raw);
+    EXPECT_EQ(c.law, DepthLaw::Inverse) << hole;
+    EXPECT_EQ(c.polarity, DepthPolarity::NearIsLow) << hole;
+    expectTrue(raw, 0.5 * 2000 * 2000 / 351300 + 1, "raw disparities");  // half a code at 2 m
+  }
 }
 
 // Five codes per millimetre, as in the TUM datasets, up to 9.8 m: more than half of the codes, with a gap.
