@@ -93,13 +93,14 @@ void Player::obeyKey(const PlayerCommand& command, std::uint16_t code, Monotonic
   text.hideKeys();
 }
 
-// Called within the display's `attend`.
+// Called within the display's `attend`. The right button comes as a key: it pauses, also over the bar, and closes the
+// page of keys.
 bool Player::hearMouse(const SurfaceMouse& mouse) {
   const bool clicks = mouse.notches == 0 && mouse_.press(mouse.pressed);  // the wheel knows no button
   if (screen_.text().showsKeys()) {
     screen_.text().turnPage(-mouse.notches);
     if (clicks) screen_.text().hideKeys();
-    return mouse.pressed || mouse.notches != 0;  // the right button comes as a key, and closes the page
+    return mouse.pressed || mouse.notches != 0;
   }
   if (state_ == PlayerState::Browsing) return hearMouseInList(mouse, clicks);
   if (mouse.notches != 0) {
@@ -113,7 +114,7 @@ bool Player::hearMouse(const SurfaceMouse& mouse) {
   if (share && at_bar.pressed) mouse_.drag(*share);
   const auto button = screen_.buttonAt(mouse);
   if (button && clicks) mouse_.click(*button);
-  return share || button;
+  return mouse.pressed && (share || button);
 }
 
 // Until a seek has shown its picture the mouse may move on; its last position is used.

@@ -121,6 +121,20 @@ TEST_F(PlayerWindow, APressOfAWordThatSlidesOntoTheBarSeeksNothing) {
   EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "paused", "idle"}));
 }
 
+TEST_F(PlayerWindow, TheRightButtonPausesAlsoOverTheBar) {
+  const auto player = play({"--haptic", "none", "--control", folder_ / "control"});
+  ControlClient control(folder_ / "control");
+  EXPECT_TRUE(until([&] { return control.ask("status")["state"] == "playing"; }));
+  for (const auto& [row, state] : {std::pair{664.0, "paused"}, {597.0, "playing"}, {200.0, "paused"}}) {
+    screen_->moveMouse(place_.x + 160, place_.y + static_cast<int>(row / 720 * kHeight));
+    screen_->button(3, true);
+    screen_->button(3, false);
+    EXPECT_TRUE(until([&] { return control.ask("status")["state"] == state; })) << row;
+  }
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+}
+
 // Then the space bar pauses; on the page it would only close it.
 TEST_F(PlayerWindow, TheRightButtonClosesThePageOfKeys) {
   const auto player = play({"--haptic", "none"});
