@@ -16,7 +16,15 @@ namespace relievo {
 class FeedNews {
  public:
   struct Item {
-    enum class Kind : std::uint8_t { ColorLost, ColorBack, DepthLost, DepthBack, DecoderRestarted, SoundRefused };
+    enum class Kind : std::uint8_t {
+      ColorLost,
+      ColorBack,
+      DepthLost,
+      DepthBack,
+      DecoderRestarted,
+      SoundRefused,
+      WordsRefused
+    };
     Kind kind;
     const char* why = "";   // cause of a loss, a restart or a refusal
     const char* done = "";  // what a restart did
@@ -35,6 +43,8 @@ class FeedNews {
   }
   // The sound that was chosen cannot be decoded.
   void soundRefused(const char* why, MonotonicTime now) { items_.push_back({Kind::SoundRefused, why, "", now}); }
+  // Likewise, the subtitles.
+  void wordsRefused(const char* why, MonotonicTime now) { items_.push_back({Kind::WordsRefused, why, "", now}); }
   // The next event, in order, each once.
   [[nodiscard]] std::optional<Item> take() {
     if (items_.empty()) return std::nullopt;

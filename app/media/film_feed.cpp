@@ -157,6 +157,11 @@ void FilmFeed::chooseTracks(std::optional<std::size_t> sound, std::optional<std:
   wake_.notify_all();
 }
 
+void FilmFeed::addSubtitles(FilmTrack file) {
+  const std::scoped_lock lock(mutex_);
+  info_.subtitles.push_back(std::move(file));
+}
+
 bool FilmFeed::hasSoundUntil(MediaTime time) const {
   const std::scoped_lock lock(mutex_);
   return !wantsSound() || (sound_.until() && *sound_.until() >= time);

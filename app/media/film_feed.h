@@ -84,6 +84,8 @@ class FilmFeed {
   [[nodiscard]] std::optional<Subtitle> takeSubtitle();
   // Chooses other tracks, by their places in FilmInfo. Seek afterwards, since what was read of them before is skipped.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  // Adds a subtitle file behind those of `info`, until the film is closed; choose it afterwards. From Reading on.
+  void addSubtitles(FilmTrack file);
   // True if no more sound before `time` will come: it is queued, or the container stores it too far ahead to be read.
   [[nodiscard]] bool hasSoundUntil(MediaTime time) const;
 

@@ -6,6 +6,7 @@
 #include "app/media/film_feed.h"
 #include "app/media/film_folder.h"
 #include "app/media/photo_list.h"
+#include "app/media/tracks/subtitle_file.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {
@@ -86,16 +87,24 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
   state_ = State::Reading;
 }
 
+// The reader does not know the subtitle files that were added.
 void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
-  reader_.chooseTracks(sound, words);
-  auto read = readWords();
+  const bool is_added = words && *words >= reader_.info().subtitles.size();
+  reader_.chooseTracks(sound, is_added ? std::nullopt : words);
+  Result<std::deque<Subtitle>> read = readWords();
+  const auto tracks = info().subtitles;
+  if (is_added && *words < tracks.size()) read = readSubtitleFile(tracks[*words].path, backends_);
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
+  auto subtitles = std::move(info_.subtitles);
   info_ = reader_.info();
+  info_.subtitles = std::move(subtitles);
+  info_.words = words;
   sound_.forget();
   sound_.may_come = hasSound();
   if (info_.sound_refused != nullptr) news_.soundRefused(info_.sound_refused, now());
-  takeWords(std::move(read));
+  if (read) takeWords(std::move(*read));
+  else news_.wordsRefused(read.error().message, now());
 }
 
 std::deque<Subtitle> FilmFeed::readWords() {

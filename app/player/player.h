@@ -161,6 +161,7 @@ class Player {
   void nextWords(double number, MonotonicTime now);
   void showWords(bool shown, MonotonicTime now);
   void beginWords();
+  void addWords(const std::string& path, MonotonicTime now);
   void followLoopAB(MonotonicTime now);
   void setVolume(double percent);
   void mute(bool muted);

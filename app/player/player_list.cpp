@@ -29,16 +29,12 @@ void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now
   openFilm(0, Programme::Way::Forward, now);
 }
 
-// Files dropped on the window are played instead of the present film. Subtitles do not end it.
+// Films dropped on the window are played instead of the present one. Subtitles are shown with it.
 void Player::followDrops(MonotonicTime now) {
   std::vector<PlaylistEntry> films;
   for (std::string& url : screen_.takeDropped()) {
-    if (film_.isOpen() && isSubtitles(url)) {
-      const std::string name = std::filesystem::path(fileName()).stem().string() + ".srt";
-      screen_.text().notice({"Subtitles are read beside the film by its name: " + name, std::nullopt}, now);
-      continue;
-    }
-    films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
+    if (film_.isOpen() && isSubtitles(url)) addWords(url, now);
+    else films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
   }
   if (!films.empty()) openList(films, now);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the player does with the film's sound and its words.
+#include <algorithm>
+
 #include "app/player/player.h"
 
 namespace relievo {
@@ -63,6 +65,16 @@ void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::s
   film_.chooseTracks(sound, words);
   journal_.filmIs(film_.info());
   if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
+}
+
+// A subtitle file that the viewer has dropped; dropped again, it is shown again.
+void Player::addWords(const std::string& path, MonotonicTime now) {
+  if (refusal({PlayerVerb::SubtitleTrack})) return obey({PlayerVerb::SubtitleTrack}, now);  // it says why
+  const auto& tracks = film_.info().subtitles;
+  const auto known = std::ranges::find(tracks, path, &FilmTrack::path);
+  const auto place = static_cast<double>(known - tracks.begin()) + 1;
+  if (known == tracks.end()) film_.addSubtitles({.path = path});
+  obey({PlayerVerb::SubtitleTrack, place}, now);
 }
 
 // After the last track, and before the first, comes none. Where the present one is hidden, it is shown again.

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tests/scenario/player_window.h"
+#include "tests/support/machine/control_client.h"
 
 namespace relievo::test {
 namespace {
@@ -163,15 +164,28 @@ TEST_F(PlayerWindow, WhatIsWrongInTheSettingsIsShownInTheListOfFilms) {
   }
 }
 
-TEST_F(PlayerWindow, SubtitlesThatAreDroppedDoNotEndTheFilm) {
-  std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nhello\n";
-  const auto player = play({"--haptic", "none"});
+TEST_F(PlayerWindow, SubtitlesThatAreDroppedAreShownWithTheFilm) {
+  std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nHELLO HELLO\n";
+  std::ofstream(folder_ / "broken.srt") << "no words";
+  const auto player = play({"--haptic", "none", "--control", folder_ / "control"});
+  ControlClient control(folder_ / "control");
   EXPECT_TRUE(until([&] { return shows(); }));
+  const auto words = [&] {  // white on gray, within the lower third
+    const auto pixels = screen_->pixels(place_.x, place_.y + 160, kWidth, 80);
+    return std::ranges::count_if(pixels, [](const auto& pixel) { return pixel[2] > 240; });
+  };
+  EXPECT_TRUE(until([&] { return words() == 0; })) << "the bar goes";
   ASSERT_TRUE(screen_->drop(window_, folder_ / "words.SRT"));
-  std::this_thread::sleep_for(300ms);
+  EXPECT_TRUE(until([&] { return words() > 30; })) << words();
+  EXPECT_EQ(control.ask("status")["subtitles"], "1 of 1, words.SRT");
+  ASSERT_TRUE(screen_->drop(window_, folder_ / "broken.srt"));
+  EXPECT_TRUE(until([&] { return control.ask("status")["subtitles"] == "2 of 2, broken.srt"; }));
+  const auto said = [&] { return textOf("said.txt"); };
+  EXPECT_TRUE(until([&] { return said().find("subtitles 2 of 2, broken.srt: ") != std::string::npos; })) << said();
   screen_->tap("q");
-  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
-  EXPECT_EQ(report()["states"], (json{"boot", "idle", "opening", "buffering", "playing", "idle"}));
+  EXPECT_EQ(player->wait(), 0) << said();
+  const json states = report()["states"];
+  EXPECT_EQ(std::ranges::count(states, "opening"), 1) << states << ": they are not played as films";
 }
 
 // There is no window manager here: SDL's wish alone changes nothing.

@@ -3,13 +3,13 @@
 
 #include <utility>
 
+#include "app/media/tracks/subtitle_file.h"
 #include "platform/log.h"
 
 namespace relievo {
 namespace {
 
 constexpr Duration kLongestLine = std::chrono::seconds(10);  // a seek into a line of this length still shows it
-constexpr std::size_t kMostLines = 100'000;                  // of a subtitle file
 
 }  // namespace
 
@@ -48,26 +48,10 @@ void SoundAndWords::openWords() {
   if (!opened) log(LogLevel::Warning, "media", "no subtitles: %s", opened.error().message);
 }
 
-// The whole file at once: it is small, and its lines may come in any order.
 void SoundAndWords::readWordsOf(const std::string& path) {
-  const auto failed = [&path](const Error& error) {
-    log(LogLevel::Warning, "media", "%s: no subtitles: %s", path.c_str(), error.message);
-  };
-  const auto source = film_.backends.make_source(path);
-  if (auto opened = source->open(path); !opened) return failed(opened.error());
-  if (source->streams().empty()) return failed({ErrorCode::Corrupt, 0, "there is no text in it"});
-  const auto decoder = film_.backends.make_subtitle_decoder();
-  if (auto opened = decoder->open(source->streams().front()); !opened) return failed(opened.error());
-  const Duration start = source->senderStart().value_or(Duration(0));  // its first line's time is not the film's
-  while (ahead_.size() < kMostLines) {
-    const auto packet = source->read();
-    if (!packet || !*packet) return;
-    auto subtitle = decoder->decode(**packet);
-    if (!subtitle) continue;
-    subtitle->begin += start;
-    if (subtitle->end) *subtitle->end += start;
-    ahead_.push_back(std::move(*subtitle));
-  }
+  auto lines = readSubtitleFile(path, film_.backends);
+  if (lines) ahead_ = std::move(*lines);
+  else log(LogLevel::Warning, "media", "%s: no subtitles: %s", path.c_str(), lines.error().message);
 }
 
 std::optional<AudioChunk> SoundAndWords::nextSound(Duration shift) {

@@ -156,8 +156,7 @@ bool isOnRemotes(std::uint16_t code) noexcept {
 }
 
 std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool touches) {
-  const std::pair<std::string, std::string> drop{"Drop a film here", "play it"};
-  if (in_list) return {{"Click", "play that film"}, {"Wheel", "up and down the list"}, drop};
+  if (in_list) return {{"Click", "play that film"}, {"Wheel", "up and down the list"}, {"Drop a film here", "play it"}};
   std::vector<std::pair<std::string, std::string>> rows;
   if (touches) {
     rows = {{"Hold the mouse button", "touch the film there"}, {"Wheel", "the finger away from you, or nearer"}};
@@ -166,7 +165,8 @@ std::vector<std::pair<std::string, std::string>> mouseRows(bool in_list, bool to
   rows.emplace_back("Click or drag on the bar", "to that time");
   rows.emplace_back("Double click", "full screen on or off");
   rows.emplace_back("Right click", "pause or continue");
-  rows.push_back(drop);
+  rows.emplace_back("Drop a film here", "play it");
+  rows.emplace_back("Drop subtitles here", "show them with the film");
   return rows;
 }
 

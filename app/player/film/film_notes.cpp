@@ -44,6 +44,10 @@ void FilmNotes::refusedSound(const FilmInfo& info, const char* why) {
   journal_.note("sound" + track + ": " + why, "the film plays without");
 }
 
+void FilmNotes::refusedWords(const FilmInfo& info, const char* why) {
+  journal_.note("subtitles " + describeTrack(info.subtitles, info.words) + ": " + why, "the film plays without");
+}
+
 void FilmNotes::happened(const FilmFeed::News& news, const FilmInfo& info) {
   using Kind = FilmFeed::News::Kind;
   const bool color = news.kind == Kind::ColorLost || news.kind == Kind::ColorBack;
@@ -64,6 +68,8 @@ void FilmNotes::happened(const FilmFeed::News& news, const FilmInfo& info) {
       return journal_.note(news.why, news.done, news.time);
     case Kind::SoundRefused:
       return refusedSound(info, news.why);
+    case Kind::WordsRefused:
+      return refusedWords(info, news.why);
   }
 }
 

@@ -24,7 +24,8 @@ class FilmNotes {
   // The film is still being opened: a long wait is reported once.
   void waits(MonotonicTime now);
   void opened(const FilmInfo& info);
-  // A source was lost or found again, a decoder was restarted, or the sound that was chosen cannot be decoded.
+  // A source was lost or found again, a decoder was restarted, or the sound or subtitles that were chosen cannot
+  // be decoded.
   void happened(const FilmFeed::News& news, const FilmInfo& info);
   // A seek that the source refused.
   void refused(const Error& seek);
@@ -36,6 +37,7 @@ class FilmNotes {
 
  private:
   void refusedSound(const FilmInfo& info, const char* why);
+  void refusedWords(const FilmInfo& info, const char* why);
 
   Journal& journal_;
   std::string url_, depth_url_;

@@ -110,6 +110,8 @@ class FilmPlayback {
   [[nodiscard]] std::optional<Subtitle> takeSubtitle() { return feed_.takeSubtitle(); }
   // Chooses other tracks, by their places in `info`; seek to the present position afterwards.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  // Adds a subtitle file behind those of `info`.
+  void addSubtitles(const FilmTrack& file) { info_.subtitles.push_back(file), feed_.addSubtitles(file); }
   [[nodiscard]] Sound& soundOutput() noexcept { return sound_; }
   [[nodiscard]] Duration soundDelay() const noexcept { return sound_.delay(); }
   // Once a round: feeds the sound output, and notes losses and recoveries in the journal.
