@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/floats/array_source.h"
+
+#include "drivers/floats/floats.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+// The header of an npy file that holds one picture of the film.
+std::string headerFor(const npy::Header& h) {
+  const std::string text =
+      print("{'descr': '%c%c%d', 'fortran_order': %s, 'shape': (%llu, %llu, %llu), }\n", h.type.swapped ? '>' : '<',
+            h.type.kind, h.type.bytes, h.fortran ? "True" : "False", static_cast<unsigned long long>(h.rows),
+            static_cast<unsigned long long>(h.cols), static_cast<unsigned long long>(h.components));
+  std::string header = "\x93NUMPY\x01";
+  header += '\0';
+  header += static_cast<char>(text.size() & 0xff);
+  header += static_cast<char>(text.size() >> 8);
+  return header + text;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> ArraySource::beginning() {
+  std::vector<std::uint8_t> begin(npy::kLongestHeader);
+  begin.resize(readArray(0, begin));
+  return begin;
+}
+
+Result<MediaSource::Description> ArraySource::describe(const std::string& url) {
+  StreamInfo stream{.kind = StreamKind::Video, .codec = kNpy.codec, .counted = true, .frame_period = kPeriod};
+  const auto found = findArray(url, stream.tags);
+  const auto header = found ? npy::parseHeader(beginning()) : std::nullopt;
+  if (const auto failure = file_.failure()) return std::unexpected(*failure);
+  if (!found) return std::unexpected(found.error());
+  if (!header) {
+    return fail(ErrorCode::Unsupported,
+                "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
+                "columns, with at most 16.7 million samples a picture");
+  }
+  if (header->fortran && header->pictures > 1) {
+    return fail(ErrorCode::Unsupported,
+                "a film in Fortran order cannot be read picture by picture; save numpy.ascontiguousarray(film)");
+  }
+  header_ = *header;
+  stream.width = static_cast<int>(header_.cols);
+  stream.height = static_cast<int>(header_.rows);
+  stream.range = ColorRange::Full;
+  return Description{.streams = {stream}};
+}
+
+Result<std::optional<Packet>> ArraySource::readPacket() {
+  if (isInterrupted()) return fail(ErrorCode::Cancelled, "interrupted");
+  if (next_ == header_.pictures) return std::nullopt;
+  const std::string header = headerFor(header_);
+  const auto bytes = static_cast<std::size_t>(header_.pictureBytes());
+  auto data = std::make_shared<std::vector<std::uint8_t>>(header.begin(), header.end());
+  data->resize(header.size() + bytes);
+  const std::size_t got = readArray(header_.begin + next_ * bytes, std::span(*data).subspan(header.size()));
+  if (const auto failure = file_.failure()) return std::unexpected(*failure);
+  if (got < bytes) {
+    cut_off_ = header_.pictures - next_;
+    return std::nullopt;
+  }
+  ++next_;
+  return packetOf(std::move(data));
+}
+
+void ArraySource::closeSource() noexcept {
+  CountedSource::closeSource();
+  cut_off_ = 0;
+}
+
+}  // namespace relievo
