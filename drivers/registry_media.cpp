@@ -28,6 +28,7 @@
 #include "drivers/rosbag/rosbag.h"
 #endif
 #ifdef RELIEVO_SCAN
+#include "drivers/npz/npz.h"
 #include "drivers/scan/scan.h"
 #endif
 #include "drivers/tiff/tiff.h"
@@ -96,6 +97,7 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
 #ifdef RELIEVO_SCAN
   if (isScan(url)) return makeScanSource();
   if (isDepthBin(url)) return makeDepthBinSource();
+  if (isNpz(url)) return makeNpzSource();
 #endif
   if (name.word == "v4l2" && name.argument) return makeV4l2Source();
   if (isNpyFile(url)) return makeNpySource();

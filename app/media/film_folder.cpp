@@ -44,7 +44,7 @@ std::vector<std::string> depthStems(const std::string& stem) {
   for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
     if (!stem.ends_with(of_source)) continue;
     const std::string base = stem.substr(0, stem.rfind('_'));
-    stems.insert(stems.end(), {base + "_depth", base + "_vis"});
+    stems.insert(stems.end(), {base + "_depths", base + "_depth", base + "_vis"});
   }
   return stems;
 }
@@ -57,8 +57,9 @@ bool isOfDepth(std::string_view rest) {
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of("-_. "), rest.size());
     const std::string_view word = rest.substr(0, end);
-    says_depth = says_depth || word == "depth";
-    if (!word.empty() && word != "depth" && std::ranges::find(kBeside, word) == kBeside.end()) return false;
+    const bool is_depth = word == "depth" || word == "depths";
+    says_depth = says_depth || is_depth;
+    if (!word.empty() && !is_depth && std::ranges::find(kBeside, word) == kBeside.end()) return false;
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   return says_depth;
@@ -80,11 +81,15 @@ std::string depthOf(const std::string& film, const FilesByStem& files) {
   return "";
 }
 
+bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
+  return std::ranges::find(words, word) != words.end();
+}
+
 // Films, and files that hold a series of pictures.
 bool mayHoldFilm(const std::string& name) {
   const std::string ending = endingOf(name);
   const bool scan = name == "depth.bin";  // ScanNet++
-  return scan || mediaKindOf(name) == MediaKind::Film || ending == "npy" || ending == "tif" || ending == "tiff";
+  return scan || mediaKindOf(name) == MediaKind::Film || isOneOf(ending, {"npy", "npz", "tif", "tiff"});
 }
 
 // The depth of the only film of a folder: a file that holds it, or the pattern of its pictures; empty if there is none.
@@ -97,10 +102,6 @@ std::string depthFileOf(const std::string& film, std::vector<std::string> files,
   std::erase_if(files, [](const std::string& name) { return !mayHoldFilm(name); });
   const std::string depth = depthOf(film, byStem(files));
   return depth.empty() ? "" : (place / depth).string();
-}
-
-bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
-  return std::ranges::find(words, word) != words.end();
 }
 
 std::vector<std::string> picturesOf(const fs::path& folder) {

@@ -23,12 +23,14 @@ inline void touch(const Frame& frame) {
   static_cast<void>(last);
 }
 
-inline void playBytes(std::span<const std::uint8_t> bytes, std::unique_ptr<MediaSource> (*make_source)()) {
+inline void playBytes(
+    std::span<const std::uint8_t> bytes, std::unique_ptr<MediaSource> (*make_source)(),
+    decltype(PairReader::Backends::make_decoder) make_decoder = [](const StreamInfo&) { return makeFfmpegDecoder(); }) {
   setLogLevel(LogLevel::Error);
   const UniqueFd file(::memfd_create("film", MFD_CLOEXEC));
   if (::write(file.get(), bytes.data(), bytes.size()) != static_cast<ssize_t>(bytes.size())) return;
   PairReader reader({.make_source = [make_source](const std::string&) { return make_source(); },
-                     .make_decoder = [](const StreamInfo&) { return makeFfmpegDecoder(); },
+                     .make_decoder = std::move(make_decoder),
                      .read_text = {}});
   if (!reader.open({.url = "/proc/self/fd/" + std::to_string(file.get())})) return;
   const auto readSome = [&reader] {

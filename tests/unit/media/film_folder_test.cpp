@@ -106,7 +106,7 @@ TEST_F(FilmFolder, AFilmOverAFolderOfDepthPicturesIsOneRecording) {
 
 TEST_F(FilmFolder, AFilmAndADepthOfAnyKindAreOneRecording) {
   int count = 0;
-  for (const char* const depth : {"depth.npy", "depth.tif", "color_depth.mkv", "depth-*.png"}) {
+  for (const char* const depth : {"depth.npy", "color_depths.npz", "depth.tif", "color_depth.mkv", "depth-*.png"}) {
     const std::string name = std::to_string(count++), place = folder_ / name;
     std::filesystem::create_directory(place);
     files({name + "/color.mp4"});
