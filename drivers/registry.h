@@ -75,6 +75,7 @@ using DecoderMaker = std::function<std::unique_ptr<VideoDecoder>(const StreamInf
 
 // What this machine offers for options that are not given; opens nothing but the connection to the desktop.
 [[nodiscard]] bool desktopIsThere();
+void tellOnDesktop(const std::string& message);  // waits until the viewer closes it
 [[nodiscard]] bool screenIsThere();
 [[nodiscard]] std::string pluggedHaptic();  // "falcon", "polhem"; empty without one
 [[nodiscard]] bool terminalIsThere();       // standard input is one

@@ -55,6 +55,10 @@ bool desktopIsThere() {
   return relievo::desktopIsThere();
 }
 
+void tellOnDesktop(const std::string& message) {
+  relievo::tellOnDesktop(message);
+}
+
 bool screenIsThere() {
   return std::ranges::any_of(lookAtKmsScreens(), &KmsScreen::there);
 }

@@ -2,8 +2,10 @@
 // The player's program: chooses the back ends, plays or probes, and reports errors in one line.
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -129,26 +131,40 @@ Outcome<Devices> makeDevices(const PlayOptions& options, const FileConfig& confi
 }
 
 // "sampel.mkv (sample.mkv?): no such file; .."
-int tellWithNearFile(Failure failure) {
+Failure withNearFile(Failure failure) {
   if (failure.error.code == ErrorCode::NotFound && failure.error.os_error == ENOENT) {
     if (const std::string near = nearFile(failure.thing); !near.empty()) failure.thing += " (" + near + "?)";
   }
-  return tell(failure);
+  return failure;
+}
+
+// Where nobody sees the terminal, what ends the program is shown on the desktop. Only the viewer ends that message, so
+// signals end the program at once again.
+int tellViewer(const Failure& failure, bool from_desktop) {
+  const int code = tell(failure);
+  if (!from_desktop) return code;
+  drivers::stopAllMotors();
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
+  std::string words = failure.thing + ": " + failure.error.message;
+  if (failure.error.os_error != 0) words += print(" (%s)", std::strerror(failure.error.os_error));
+  drivers::tellOnDesktop(words);
+  return code;
 }
 
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const CancelsAnswers cancels(stop);
+  const bool from_desktop = options.from_desktop;
   applyLogLevels(config);
   drivers::boundDecoderMemory();
   if (options.verbose) setLogLevel(LogLevel::Debug);
-  if (auto loaded = loadPlayFiles(options); !loaded) return tell(loaded.error());
-  if (auto apart = keepOutputsApart(options, config); !apart) return tell(apart.error());
+  if (auto loaded = loadPlayFiles(options); !loaded) return tellViewer(loaded.error(), from_desktop);
+  if (auto apart = keepOutputsApart(options, config); !apart) return tellViewer(apart.error(), from_desktop);
   MonotonicClock clock;
   const auto devices = makeDevices(options, config, clock);
-  if (!devices) return tell(devices.error());
+  if (!devices) return tellViewer(devices.error(), from_desktop);
   auto outputs = makeOutputs(options);
-  if (!outputs) return tell(outputs.error());
+  if (!outputs) return tellViewer(outputs.error(), from_desktop);
   PlayerControl control(std::move(outputs->socket), drivers::switchFault);
   const auto recorderOf = [](std::optional<Recorder>& recorder) { return recorder ? &*recorder : nullptr; };
 
@@ -170,7 +186,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
   if (played || report.frames_shown > 0) say(toText(report, options.verbose));
-  if (!played) return tellWithNearFile(played.error());
+  if (!played) return tellViewer(withNearFile(played.error()), from_desktop && !stop);
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
   return resume && !player.placesAreKept() ? kExitFailed : files;  // the log has said why

@@ -39,6 +39,9 @@ struct Capture {
 // Whether a window can be opened: starts SDL.
 [[nodiscard]] bool desktopIsThere();
 
+// Shows a message on the desktop until the viewer closes it; nothing where there is none.
+void tellOnDesktop(const std::string& message);
+
 // A whole screen without a desktop, by the kernel's mode setting (KMS), on the card `path` ("/dev/dri/card0"), or on
 // the first card that has a screen. The mode is the one of the requested size, else the screen's preferred one. The
 // first frame sets it and `close` restores the previous one. `present` waits for the previous frame's flip; the screen

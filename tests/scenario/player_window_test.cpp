@@ -164,6 +164,27 @@ TEST_F(PlayerWindow, WhatIsWrongInTheSettingsIsShownInTheListOfFilms) {
   }
 }
 
+// Before there is a window to show it in. The viewer ends that message, or a signal the program.
+TEST_F(PlayerWindow, WhatEndsAProgramThatADesktopStartsIsShownOnTheDesktop) {
+  for (const bool killed : {false, true}) {
+    Process player(
+        {RELIEVO_BIN_DIR "/relievo", "--from-desktop", folder_ / "film.mkv", "--report", "/proc/none/r.json"},
+        folder_ / "said.txt");
+    const auto box = screen_->find("relievo");
+    ASSERT_NE(box, 0u) << textOf("said.txt");
+    EXPECT_TRUE(player.isRunning());
+    if (killed) {
+      player.send(SIGTERM);
+      EXPECT_EQ(player.wait(), -SIGTERM);
+      continue;
+    }
+    screen_->focus(box);
+    screen_->tap("Return");
+    EXPECT_EQ(player.wait(), 1);
+    EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("/proc/none/r.json: "));
+  }
+}
+
 TEST_F(PlayerWindow, SubtitlesThatAreDroppedAreShownWithTheFilm) {
   std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nHELLO HELLO\n";
   std::ofstream(folder_ / "broken.srt") << "no words";

@@ -37,13 +37,13 @@ Window childOf(Display* display, Window parent, const std::string& title) {
   if (XQueryTree(display, parent, &root, &above, &children, &count) == 0) return 0;
   Window found = 0;
   for (unsigned i = 0; i < count && found == 0; ++i) {
-    char* name = nullptr;
+    XTextProperty name{};  // SDL gives its message box's a type of its own
     XWindowAttributes attributes{};
-    if (XFetchName(display, children[i], &name) != 0 && name == title &&
+    if (XGetWMName(display, children[i], &name) != 0 && reinterpret_cast<const char*>(name.value) == title &&
         XGetWindowAttributes(display, children[i], &attributes) != 0 && attributes.map_state == IsViewable) {
       found = children[i];
     }
-    if (name != nullptr) XFree(name);
+    if (name.value != nullptr) XFree(name.value);
   }
   if (children != nullptr) XFree(children);
   return found;
