@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables: from signs to the codes of the keys that have them in the USA, and from SDL's scancodes, which are USB usages
-// (HID Usage Tables, 10 and 15), to Linux key codes as in the kernel's hid-input.c.
+// A table from SDL's scancodes, which are USB usages (HID Usage Tables, 10 and 15), to Linux key codes as in the
+// kernel's hid-input.c.
 #include "drivers/egl/window_keys.h"
 
 #include <linux/input-event-codes.h>
@@ -9,7 +9,7 @@
 #include <iterator>
 #include <utility>
 
-#include "hal/key_names.h"
+#include "hal/key_signs.h"
 
 namespace relievo {
 namespace {
@@ -146,46 +146,6 @@ constexpr KeyPair kKeys[] = {
     {SDL_SCANCODE_SLEEP, KEY_SLEEP},
 };
 
-struct SignPair {
-  char sign;
-  std::uint16_t code;
-};
-// The keys of the USA that have these signs.
-constexpr SignPair kSigns[] = {
-    {'#', KEY_NUMERIC_POUND},
-    {'?', KEY_QUESTION},
-    {'<', KEY_PREVIOUS},
-    {'>', KEY_NEXT},
-    {'+', KEY_KPPLUS},
-    {'*', KEY_KPASTERISK},
-    {'!', KEY_1 | kWithShift},
-    {'@', KEY_2 | kWithShift},
-    {'$', KEY_4 | kWithShift},
-    {'%', KEY_5 | kWithShift},
-    {'^', KEY_6 | kWithShift},
-    {'&', KEY_7 | kWithShift},
-    {'(', KEY_9 | kWithShift},
-    {')', KEY_0 | kWithShift},
-    {'-', KEY_MINUS},
-    {'_', KEY_MINUS | kWithShift},
-    {'=', KEY_EQUAL},
-    {'[', KEY_LEFTBRACE},
-    {'{', KEY_LEFTBRACE | kWithShift},
-    {']', KEY_RIGHTBRACE},
-    {'}', KEY_RIGHTBRACE | kWithShift},
-    {'\\', KEY_BACKSLASH},
-    {'|', KEY_BACKSLASH | kWithShift},
-    {';', KEY_SEMICOLON},
-    {':', KEY_SEMICOLON | kWithShift},
-    {'\'', KEY_APOSTROPHE},
-    {'"', KEY_APOSTROPHE | kWithShift},
-    {'`', KEY_GRAVE},
-    {'~', KEY_GRAVE | kWithShift},
-    {',', KEY_COMMA},
-    {'.', KEY_DOT},
-    {'/', KEY_SLASH},
-};
-
 // What Shift makes of these in the USA: the table is asked where SDL tells no text, as with Ctrl, or over SDL 3.
 constexpr std::pair<char, char> kShifted[] = {{'1', '!'}, {'2', '@'}, {'3', '#'}, {'4', '$'}, {'5', '%'}, {'6', '^'},
                                               {'7', '&'}, {'8', '*'}, {'/', '?'}, {',', '<'}, {'.', '>'}};
@@ -240,9 +200,7 @@ std::optional<std::uint16_t> linuxKey(const SDL_Keysym& key, std::string_view ty
   const bool untold =
       typed.empty() && (key.mod & KMOD_RALT) != 0 && isForSigns(key.scancode);  // what AltGr makes of it
   if (untold || isOtherLatin(sign) || (has_no_sign && sign == key.sym)) return KEY_UNKNOWN;
-  for (const SignPair& pair : kSigns) {
-    if (pair.sign == sign) return pair.code;
-  }
+  if (const auto code = keyOfSign(sign)) return code;
   const bool shifted_digit = sign >= '1' && sign <= '8' && (key.mod & KMOD_SHIFT) != 0;
   if (shifted_digit) return static_cast<std::uint16_t>(KEY_NUMERIC_1 + (sign - '1'));
   return codeOf(positionInUsa(key));

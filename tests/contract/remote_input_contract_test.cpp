@@ -92,17 +92,21 @@ std::vector<std::uint16_t> keysOf(std::string_view bytes) {
 TEST(TerminalKeys, AreThoseOfTheKernel) {
   using Keys = std::vector<std::uint16_t>;
   EXPECT_EQ(keysOf("pP 7."), (Keys{KEY_P, KEY_P | kWithShift, KEY_SPACE, KEY_7, KEY_DOT}));
-  EXPECT_EQ(keysOf("!@"), (Keys{KEY_1 | kWithShift, KEY_2 | kWithShift}));
+  EXPECT_EQ(keysOf("!@:"), (Keys{KEY_1 | kWithShift, KEY_2 | kWithShift, KEY_SEMICOLON | kWithShift}));
   EXPECT_EQ(keysOf("\x1b[A\x1b[B\x1b[C\x1b[D\x1bOC"), (Keys{KEY_UP, KEY_DOWN, KEY_RIGHT, KEY_LEFT, KEY_RIGHT}));
   EXPECT_EQ(keysOf("\x1b[5~\x1b[6~\x1b[H\x1b[4~"), (Keys{KEY_PAGEUP, KEY_PAGEDOWN, KEY_HOME, KEY_END}));
   EXPECT_EQ(keysOf("\x1b"), (Keys{KEY_ESC}));
   EXPECT_EQ(keysOf("\x1b\x1b[A"), (Keys{KEY_ESC, KEY_UP}));
   EXPECT_EQ(keysOf("[]#?<>+"),
             (Keys{KEY_LEFTBRACE, KEY_RIGHTBRACE, KEY_NUMERIC_POUND, KEY_QUESTION, KEY_PREVIOUS, KEY_NEXT, KEY_KPPLUS}));
-  EXPECT_EQ(keysOf("\x1bOP\x1bOR\x1b[15~"), (Keys{KEY_F1, KEY_F3, KEY_F5}));
+  EXPECT_EQ(keysOf("\x1bOP\x1bOR\x1b[15~\x1b[23~"), (Keys{KEY_F1, KEY_F3, KEY_F5, KEY_F11}));
+  EXPECT_EQ(keysOf("\x1b[1;2C\x1b[1;5D\x1b[5;2~\x1b[1;2P"),
+            (Keys{KEY_RIGHT | kWithShift, KEY_LEFT | kWithCtrl, KEY_PAGEUP | kWithShift, KEY_F1 | kWithShift}));
+  EXPECT_EQ(keysOf("\x1b[1;C\x1b[1;1C\x1b[1;0C\x1b[1;99999C"), (Keys{KEY_RIGHT, KEY_RIGHT, KEY_RIGHT}))
+      << "no modifier";
   EXPECT_EQ(keysOf("\x1b[[A\x1b[[EA\x1b[["), (Keys{KEY_F1, KEY_F5, KEY_A | kWithShift}));
   // Unknown sequences do not swallow the keys after them.
-  EXPECT_EQ(keysOf("\x1b[1;5Cq\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
+  EXPECT_EQ(keysOf("\x1b[1;9Xq\x1b[1;3C\x1b[1;9C\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
   EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "hal/key_names.h"
+#include "hal/key_signs.h"
 
 namespace relievo {
 namespace {
@@ -19,7 +20,7 @@ struct Label {
   std::string_view text;
 };
 
-// The signs that need shift come from a window as codes of their own: see drivers/egl/window_keys.cpp.
+// Keys whose sign is hard to see, and those without one.
 constexpr Label kOnKeyboards[] = {
     {KEY_SPACE, "Space"},    {KEY_ESC, "Esc"},
     {KEY_ENTER, "Enter"},    {KEY_KPENTER, "Enter"},
@@ -32,20 +33,7 @@ constexpr Label kOnKeyboards[] = {
     {KEY_PAUSE, "Pause"},    {KEY_CAPSLOCK, "Caps Lock"},
     {KEY_SYSRQ, "Print"},    {KEY_COMPOSE, "Menu"},
     {KEY_DOT, ". (dot)"},    {KEY_COMMA, ", (comma)"},
-    {KEY_LEFTBRACE, "["},    {KEY_RIGHTBRACE, "]"},
-    {KEY_SEMICOLON, ";"},    {KEY_APOSTROPHE, "'"},
-    {KEY_GRAVE, "`"},        {KEY_BACKSLASH, "\\"},
-    {KEY_SLASH, "/"},        {KEY_MINUS, "-"},
-    {KEY_EQUAL, "="},        {KEY_KPPLUS, "+"},
-    {KEY_KPMINUS, "-"},      {KEY_KPASTERISK, "*"},
-    {KEY_KPSLASH, "/"},      {KEY_NUMERIC_POUND, "#"},
-    {KEY_QUESTION, "?"},     {KEY_NEXT, ">"},
-    {KEY_PREVIOUS, "<"},
-};
-// These need another key outside the USA.
-constexpr Label kSigns[] = {
-    {KEY_1 | kWithShift, "!"}, {KEY_2 | kWithShift, "@"}, {KEY_4 | kWithShift, "$"}, {KEY_5 | kWithShift, "%"},
-    {KEY_6 | kWithShift, "^"}, {KEY_7 | kWithShift, "&"}, {KEY_9 | kWithShift, "("}, {KEY_0 | kWithShift, ")"},
+    {KEY_KPMINUS, "-"},      {KEY_KPSLASH, "/"},
 };
 constexpr Label kOnRemotes[] = {
     {KEY_OK, "OK"},
@@ -134,11 +122,11 @@ std::string remoteLabel(std::uint16_t code) {
 }  // namespace
 
 std::string keyboardLabel(std::uint16_t code) {
-  if (const auto sign = find(kSigns, code); !sign.empty()) return std::string(sign);
+  if (const auto label = find(kOnKeyboards, code); !label.empty()) return std::string(label);
+  if (const char sign = signOfKey(code); sign != '\0') return {sign};
   if (const std::uint16_t alone = withoutShiftAndCtrl(code); alone != code) {
     return ((code & kWithCtrl) != 0 ? "Ctrl+" : "Shift+") + keyboardLabel(alone);
   }
-  if (const auto label = find(kOnKeyboards, code); !label.empty()) return std::string(label);
   std::string name = keyName(code);
   const bool function = name.size() > 1 && name.size() <= 3 && name[0] == 'F' && std::isdigit(name[1]) != 0;
   if (name.size() != 1) return function ? name : "";

@@ -10,7 +10,9 @@
 #include <sstream>
 #include <string>
 
+#include "app/player/control/key_label.h"
 #include "hal/key_names.h"
+#include "hal/key_signs.h"
 #include "tests/support/command_words.h"
 
 namespace relievo {
@@ -315,3 +317,18 @@ TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
 
 }  // namespace
 }  // namespace relievo
+// What a window and a terminal make of a sign, the page of keys calls by that sign, and keys.toml has a name for it.
+TEST(KeyTable, EverySignIsAKeyWithThatLabelAndAName) {
+  for (const char sign : std::string("!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~")) {
+    const auto code = keyOfSign(sign);
+    ASSERT_TRUE(code) << sign;
+    EXPECT_EQ(signOfKey(*code), sign);
+    EXPECT_EQ(keyboardLabel(*code)[0], sign);
+    EXPECT_EQ(keyCode(keyName(*code)), code) << sign;
+  }
+  EXPECT_EQ(keyboardLabel(KEY_DOT), ". (dot)");
+  EXPECT_EQ(keyboardLabel(KEY_RIGHT | kWithShift), "Shift+Right");
+  EXPECT_EQ(keyOfSign('a'), std::nullopt);
+  EXPECT_EQ(signOfKey(KEY_A), '\0');
+}
+
