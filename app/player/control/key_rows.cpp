@@ -2,6 +2,7 @@
 // The key table in plain words: a row for each command, for the screen and for the help.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "app/player/control/key_table.h"
@@ -11,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// The keys of each command, in the order of the commands.
+// The keys of each command, in the order of the commands, small steps first.
 class CommandKeys {
  public:
   explicit CommandKeys(const char* between) : between_(between) {}
@@ -38,10 +39,13 @@ class CommandKeys {
   std::vector<std::string>& keysOf(const PlayerCommand& command) {
     const auto line = std::ranges::find(lines_, command, [](const auto& each) { return each.first; });
     if (line != lines_.end()) return line->second;
-    const auto verb = [](const auto& each) { return each.first.verb; };
-    return lines_
-        .emplace(std::ranges::upper_bound(lines_, command.verb, {}, verb), command, std::vector<std::string>())
-        ->second;
+    const auto order = [](const PlayerCommand& c) {
+      const double step = c.verb == PlayerVerb::SelectTo ? 0 : c.value;  // else a film's place, not how far to go
+      return std::tuple(c.verb, std::abs(step), step);
+    };
+    const auto after =
+        std::ranges::upper_bound(lines_, order(command), {}, [&order](const auto& each) { return order(each.first); });
+    return lines_.emplace(after, command, std::vector<std::string>())->second;
   }
   const char* between_;
   std::vector<std::pair<PlayerCommand, std::vector<std::string>>> lines_;

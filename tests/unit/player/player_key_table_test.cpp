@@ -225,6 +225,15 @@ TEST(KeyTable, ThePageNamesKeysAsTheyAreLabelled) {
   }
 }
 
+TEST(KeyTable, ThePageNamesSmallStepsFirst) {
+  std::vector<std::string> seeks;
+  for (const auto& [key, what] : KeyTable::usual().rowsIn(State::Playing, KeyBoard::Keyboard)) {
+    if (what.ends_with(" s back") || what.ends_with(" s forward")) seeks.push_back(what);
+  }
+  EXPECT_EQ(seeks, (std::vector<std::string>{"1 s back", "1 s forward", "5 s back", "5 s forward", "60 s back",
+                                             "60 s forward", "600 s back", "600 s forward"}));
+}
+
 // The names that the help lists are those that a script takes.
 TEST(KeyTable, HelpNamesEveryKeyAsScriptsDo) {
   std::istringstream help(KeyTable::usual().help());
@@ -315,8 +324,6 @@ TEST(KeyTable, AKeyWithShiftOrCtrlIsARowOfItsOwn) {
   EXPECT_EQ(wordsOf(*pressed(*table, State::Playing, KEY_Q)), "quit");
 }
 
-}  // namespace
-}  // namespace relievo
 // What a window and a terminal make of a sign, the page of keys calls by that sign, and keys.toml has a name for it.
 TEST(KeyTable, EverySignIsAKeyWithThatLabelAndAName) {
   for (const char sign : std::string("!\"#$%&'()*+,-./:;<=>?@[\\]^_`{|}~")) {
@@ -332,3 +339,5 @@ TEST(KeyTable, EverySignIsAKeyWithThatLabelAndAName) {
   EXPECT_EQ(signOfKey(KEY_A), '\0');
 }
 
+}  // namespace
+}  // namespace relievo
