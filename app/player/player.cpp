@@ -105,6 +105,7 @@ bool Player::alive() const noexcept {
 
 void Player::boot(const std::atomic<bool>& stop) {
   if (auto opened = screen_.open(stop); !opened) return failDisplay(opened.error());
+  if (config_.full_screen) screen_.obey({PlayerVerb::FullScreen, 1});
   if (parts_.remote != nullptr) {
     if (auto heard = parts_.remote->open(); !heard) {
       journal_.note(std::string("remote: ") + heard.error().message, "the film plays without one");

@@ -44,6 +44,7 @@ struct PlayerConfig {
   KeyBoard held = KeyBoard::Remote;  // what the viewer uses, for the names of keys
   bool has_mouse = false;            // of a window
   bool mouse_touches = false;        // the mouse is the finger
+  bool full_screen = false;          // a window fills the screen from the beginning
   bool loop = false;
   std::optional<MediaTime> start;  // of the film that opens; nullopt: its beginning, or where it was left
   bool unseen = false;             // off screen unasked: said when the first film has opened

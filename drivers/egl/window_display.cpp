@@ -101,8 +101,11 @@ Result<DisplaySurface> WindowDisplay::startFrame() {
 // SDL_GL_SwapWindow reports failures only by SDL_GetError. A frame is on the screen at the next refresh.
 Result<Duration> WindowDisplay::showFrame() {
   if (auto current = makeCurrent(); !current) return std::unexpected(current.error());
-  if (std::exchange(hidden_, false)) SDL_ShowWindow(window_);
   shown_at_ = clock_.now();
+  if (std::exchange(hidden_, false)) {
+    SDL_ShowWindow(window_);  // fills the screen, if that was asked for
+    if (fill_asked_) fill_asked_ = shown_at_;
+  }
   SDL_DisableScreenSaver();
   SDL_ClearError();
   SDL_GL_SwapWindow(window_);

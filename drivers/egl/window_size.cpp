@@ -58,7 +58,7 @@ void WindowDisplay::setFullScreen(FullScreen wish) {
 // A window manager fills the screen with the window on SDL's request. Without one, this does it.
 void WindowDisplay::followFullScreen() {
   constexpr Duration kPatience = std::chrono::milliseconds(500);
-  if (!fill_asked_ || clock_.now() < *fill_asked_ + kPatience || !makeCurrent()) return;
+  if (!fill_asked_ || hidden_ || clock_.now() < *fill_asked_ + kPatience || !makeCurrent()) return;
   fill_asked_.reset();
   int width = 0, height = 0;
   SDL_GL_GetDrawableSize(window_, &width, &height);

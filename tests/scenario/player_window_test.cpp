@@ -231,6 +231,30 @@ TEST_F(PlayerWindow, FFillsTheScreenAndEscapeLeavesItButNotTheFilm) {
   EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
 }
 
+// A window of the film's size is hidden until there is a picture.
+TEST_F(PlayerWindow, FsFillsTheScreenFromTheBeginningWithAFilmAndInTheListOfFilms) {
+  const std::string films = std::filesystem::path(folder_ / "x").parent_path();
+  for (const auto& [words, title, before] :
+       {std::tuple(std::vector<std::string>{folder_ / "film.mkv", "--loop"}, "film.mkv - relievo", 64),
+        {{"--films", films, "--size", "320x240"}, "relievo", kWidth}}) {
+    std::vector<std::string> all{RELIEVO_BIN_DIR "/relievo", "--fs"};
+    all.insert(all.end(), words.begin(), words.end());
+    Process player(all, folder_ / "said.txt");
+    window_ = screen_->find(title);
+    ASSERT_NE(window_, 0u) << textOf("said.txt");
+    const auto width = [&] { return screen_->place(window_).value_or(XScreen::Place{}).width; };
+    EXPECT_TRUE(until([&] { return width() == XScreen::kWidth; })) << width();
+    std::this_thread::sleep_for(1s);
+    EXPECT_EQ(width(), XScreen::kWidth) << "it stays so";
+    screen_->focus(window_);
+    screen_->tap("f");
+    EXPECT_TRUE(until([&] { return width() == before; })) << width();
+    screen_->focus(window_);
+    screen_->tap("q");
+    EXPECT_EQ(player.wait(), 0) << textOf("said.txt");
+  }
+}
+
 TEST_F(PlayerWindow, ItsCloseButtonEndsThePausedFilmWhateverTheRemoteIs) {
   std::ofstream(folder_ / "keys.txt") << "0.5 PAUSE\n0.9 PAUSE\n";  // the first may come too early
   const auto player = play({"--haptic", "none", "--remote", "script:" + folder_ / "keys.txt"});

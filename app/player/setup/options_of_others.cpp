@@ -16,7 +16,7 @@ struct Answer {
 constexpr Answer kAnswers[] = {
     {"--ss --start-time", "no such option; use --start TIME"},
     {"--loop-file --loop-playlist --repeat", "no such option; use --loop"},
-    {"--fs --fullscreen --full-screen", "no such option; the key f fills the screen"},
+    {"--fullscreen --full-screen", "no such option; use --fs, or the key f while it plays"},
     {"--pause --start-paused", "no such option; the space bar pauses the film"},
     {"--mute --no-audio --nosound", "no such option; use --audio none, or the key m while it plays"},
     {"--speed", "no such option; the keys [ and ] change it while the film plays"},

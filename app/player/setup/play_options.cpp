@@ -262,6 +262,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
       ->excludes(decoder);
   addBoxOption(command, play.player.volume);
   addSoundAndTextOptions(command, play.player);
+  command.add_flag("--fs", play.player.full_screen, "A window fills the screen from the beginning");
   command.add_flag("--osd", play.osd, "Show bar, keys and notices over an off-screen picture, too");
   command
       .add_option_function<std::string>(

@@ -138,6 +138,7 @@ TEST_F(PlayConfig, EveryOptionCanStandInTheFileAndIsPrintedAsItReadsBack) {
                                                       {"volume", "80.5"},
                                                       {"alang", R"("jpn,en")"},
                                                       {"slang", R"("de")"},
+                                                      {"fs", "true"},
                                                       {"osd", "true"},
                                                       {"software", "true"},
                                                       {"start", R"("1:30")"},

@@ -110,7 +110,7 @@ TEST(Options, OfOtherPlayersAreAnsweredWithWhatDoesTheSame) {
   expectRefused({"film.mkv", "--ss", "10"}, "--ss: no such option; use --start TIME");
   expectRefused({"--ss=10", "film.mkv"}, "--ss: no such option; use --start TIME");
   expectRefused({"--mute", "--loop", "film.mkv"}, "--mute: no such option; use --audio none");
-  expectRefused({"film.mkv", "--fs"}, "--fs: no such option; the key f fills the screen");
+  expectRefused({"film.mkv", "--fullscreen"}, "--fullscreen: no such option; use --fs, or the key f while it plays");
   expectRefused({"film.mkv", "--no-audio"}, "--no-audio: no such option; use --audio none");
   expectRefused({"film.mkv", "--sub-file=a.srt"}, "--sub-file: no such option; subtitles lie beside the film");
   EXPECT_THAT(parse({"play", "--help"}).out, testing::Not(HasSubstr("--no-audio")));
