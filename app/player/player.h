@@ -149,6 +149,7 @@ class Player {
   void begin(MonotonicTime now);
   void announce(const DisplayVolume& volume);
   [[nodiscard]] std::string firstHint() const;
+  void tellDoubt(MonotonicTime now);
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
@@ -160,9 +161,9 @@ class Player {
   [[nodiscard]] bool obeySound(const PlayerCommand& command, MonotonicTime now);
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words, MonotonicTime now);
   void nextWords(double number, MonotonicTime now);
+  void addWords(const std::string& path, MonotonicTime now);
   void showWords(bool shown, MonotonicTime now);
   void beginWords();
-  void addWords(const std::string& path, MonotonicTime now);
   void followLoopAB(MonotonicTime now);
   void setVolume(double percent);
   void mute(bool muted);
@@ -208,6 +209,7 @@ class Player {
   MouseWishes mouse_;
   Statistics statistics_;
   bool words_shown_ = true;
+  std::string doubt_;  // of a film's depth, that was shown last
   LoopAB loop_ab_;
 
   PlayerState state_ = PlayerState::Boot;

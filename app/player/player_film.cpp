@@ -102,8 +102,10 @@ void Player::followOpening(MonotonicTime now) {
   if (std::exchange(config_.unseen, false)) {
     log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
   }
+  const bool warned = screen_.text().showsWarning(now);  // of the film before, which could not be played
   journal_.filmIs(film_.opened());
   beginWords();
+  if (!warned) tellDoubt(now);
   const Duration length = film_.info().duration;
   if (const auto start = std::exchange(config_.start, std::nullopt)) {
     if (length <= Duration(0) || *start < MediaTime(length)) return seek(*start, PlayerEvent::Seek, false, now);
@@ -114,6 +116,14 @@ void Player::followOpening(MonotonicTime now) {
   if (!left) return;
   log(LogLevel::Info, "play", "resumes at %.1f s, where it was left", toSeconds(*left));
   seek(*left, PlayerEvent::Seek, false, now);
+}
+
+// The terminal has them all, of every film.
+void Player::tellDoubt(MonotonicTime now) {
+  const auto& doubts = film_.info().reading.doubts;
+  if (doubts.empty() || doubts.front() == doubt_) return;
+  doubt_ = doubts.front();
+  screen_.text().tell(doubt_, now);
 }
 
 void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) {

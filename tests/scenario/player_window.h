@@ -33,7 +33,7 @@ class PlayerWindow : public testing::Test {
   void SetUp() override {
     if (screen_ == nullptr) GTEST_SKIP() << kNoXServer;
     ::setenv("XDG_STATE_HOME", (folder_ / "state").c_str(), 1);
-    // A gray picture; its depth is that of a wall in the middle.
+    // A gray picture; its depth is that of a wall in the middle, beside a lower strip: one code alone looks wrong.
     makeClip(folder_ / "film.mkv",
              {{.pix_fmt = "yuv420p",
                .frames = 60,
@@ -41,8 +41,8 @@ class PlayerWindow : public testing::Test {
                .tags = {{"title", "color"}}},
               {.pix_fmt = "gray",
                .frames = 60,
-               .sample = [](int, int, int, int) { return 128U; },
-               .tags = {{"title", "depth"}}}});
+               .sample = [](int, int column, int, int) { return column < 4 ? 64U : 128U; },
+               .tags = {{"title", "depth"}, {"DEPTH_POLARITY", "near-high"}}}});
   }
   std::unique_ptr<Process> play(std::vector<std::string> words) {
     words.insert(words.begin(),

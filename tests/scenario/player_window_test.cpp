@@ -185,6 +185,23 @@ TEST_F(PlayerWindow, WhatEndsAProgramThatADesktopStartsIsShownOnTheDesktop) {
   }
 }
 
+// Once; its depth is a level.
+TEST_F(PlayerWindow, WhyTheDepthLooksWrongIsShownOverTheFilm) {
+  makeClip(folder_ / "film.mkv",
+           {{.pix_fmt = "yuv420p", .frames = 60, .sample = [](int c, int, int, int) { return c == 0 ? 180U : 128U; }},
+            {.pix_fmt = "gray", .frames = 60, .sample = [](int, int, int, int) { return 128U; }}});
+  const auto player = play({"--haptic", "none"});
+  const auto warns = [&] {
+    const auto pixels = screen_->pixels(place_.x, place_.y + 30, kWidth, 50);
+    return std::ranges::any_of(pixels, [](const auto& pixel) { return pixel[0] > pixel[2] + 60; });
+  };
+  EXPECT_TRUE(until(warns));
+  EXPECT_TRUE(until([&] { return shows() && !warns(); })) << "it goes, and does not come with each loop";
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("of the depth is one code"));
+}
+
 TEST_F(PlayerWindow, SubtitlesThatAreDroppedAreShownWithTheFilm) {
   std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nHELLO HELLO\n";
   std::ofstream(folder_ / "broken.srt") << "no words";
