@@ -69,9 +69,8 @@ class ColorCurve {
   struct Piece {
     YuvColor from, along, per_length;  // per_length = along / |along|^2
   };
-  struct Bend {
-    float per_chroma = 0;  // pieces, for a change of 1 in chroma
-    float sum = 0;         // of the bends from the first piece to this one
+  struct Pace {
+    float per_chroma = 0, per_color = 0;  // pieces, for a change of 1 in chroma or in the whole colour
   };
   struct Place {
     float t = 0, distance = 0;  // squared
@@ -92,7 +91,7 @@ class ColorCurve {
   }
 
   std::vector<Piece> pieces_;
-  std::vector<Bend> bends_;  // of each piece
+  std::vector<Pace> paces_;  // of each piece
   float per_piece_ = 0;      // of s
   bool closed_ = false;
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};

@@ -90,12 +90,28 @@ double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const
   return depth_mm_ * (s_offset_ + s_scale_ * static_cast<double>(sum) / (codes.across * codes.down));
 }
 
+namespace {
+
+// The two halves of some places.
+std::array<SampledBlock::Places, 2> halves(const SampledBlock::Places& places) RELIEVO_RT {
+  SampledBlock::Places first = places, second = places;
+  first.count = places.count / 2;
+  second.count = places.count - first.count;
+  second.first += first.count * places.step;
+  return {first, second};
+}
+
+}  // namespace
+
+// Reading colours one by one is costly: a block in which they differ too much for their mean is read by its quarters,
+// and of a small one every other sample, as on a chessboard.
 double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   if (plain_) return meanOfCodes(c0, r0, block);
   if (layout_ == Layout::Curve) {
     const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
     if (!std::isnan(mean)) return mean;
   }
+  constexpr int kSmall = 8;
   double sum = 0;
   int count = 0, looked = 0;
   const auto add = [&](double z) {
@@ -104,17 +120,34 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     sum += z;
     ++count;
   };
-  // Reading colours is costly: in a block where they differ, every other sample is read, as on a chessboard.
+  if (layout_ == Layout::Curve && std::min(block.across.count, block.down.count) >= kSmall) {
+    for (const SampledBlock::Places& down : halves(block.down)) {
+      for (const SampledBlock::Places& across : halves(block.across)) {
+        SampledBlock quarter = block;
+        quarter.across = across;
+        quarter.down = down;
+        const int samples = across.count * down.count;
+        const double z = meanHeight(c0, r0, quarter);
+        looked += samples;
+        if (std::isnan(z)) continue;
+        sum += samples * z;
+        count += samples;
+      }
+    }
+    return 2 * count < looked ? kHole : sum / count;
+  }
   const int stride = layout_ == Layout::Curve ? 2 : 1;
   for (int j = 0; j < block.down.count; ++j) {
     const int r = r0 + block.down.first + j * block.down.step;
     const auto column = [&](int i) { return c0 + block.across.first + i * block.across.step; };
     int i = j % stride;
-    for (; layout_ == Layout::Curve && i + 3 * stride < block.across.count; i += 4 * stride) {
-      const std::array<int, 4> columns{column(i), column(i + stride), column(i + 2 * stride), column(i + 3 * stride)};
+    for (; layout_ == Layout::Curve && i < block.across.count; i += 4 * stride) {
+      std::array<int, 4> columns;
       std::array<double, 4> shares;
+      const int read = std::min(4, (block.across.count - i + stride - 1) / stride);
+      for (int k = 0; k < 4; ++k) columns[k] = column(i + std::min(k, read - 1) * stride);
       colors_.sharesOfFour(columns.data(), r, shares.data());
-      for (const double share : shares) add(heightOfColor(steps_ * share));
+      for (int k = 0; k < read; ++k) add(heightOfColor(steps_ * shares[k]));
     }
     for (; i < block.across.count; i += stride) add(heightMm(column(i), r));
   }
