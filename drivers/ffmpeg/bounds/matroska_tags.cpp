@@ -16,9 +16,16 @@ namespace relievo::ffmpeg {
 namespace {
 
 constexpr std::uint32_t kHeader = 0x1A45DFA3, kSegment = 0x18538067, kCluster = 0x1F43B675, kTags = 0x1254C367;
-constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekPosition = 0x53AC, kChapters = 0x1043A770;
+constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekPosition = 0x53AC;
 constexpr std::string_view kSimpleTag = "\x67\xC8";
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr struct {
+  std::uint32_t id;
+  std::uint64_t most;  // bytes
+  const char* why;
+} kBounds[] = {{0x1043A770, kMostBytes, kTooLongChapters},
+               {0x1654AE6B, 4 * kMostBytes, kTooManyTracks},
+               {0x1C53BB6B, 24 * kMostBytes, kTooManyCues}};
 constexpr int kMostElements = 1000;  // that are looked at; a film has about ten before its first cluster
 constexpr std::uint64_t kFarthest = std::uint64_t{1} << 62;  // the kernel refuses to read beyond 2^63
 constexpr std::uint64_t kUnknown = std::numeric_limits<std::uint64_t>::max();
@@ -78,7 +85,9 @@ class Counter {
   }
 
   void note(const Element& element) {
-    if (element.id == kChapters && element.bytes > kMostBytes) too_long_ = kTooLongChapters;
+    for (const auto& bound : kBounds) {
+      if (element.id == bound.id && element.bytes > bound.most) too_long_ = bound.why;
+    }
     if (element.id == kTags) countTags(element);
     if (element.id == kSeekHead) followSeeks(element);
   }

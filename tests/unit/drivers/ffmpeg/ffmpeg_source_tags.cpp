@@ -89,6 +89,21 @@ TEST_F(FilmWithTags, Over1MiBOfTagsOrChaptersIsSaidAsSuch) {
   EXPECT_THAT(chapters.message, HasSubstr("whose chapters are longer than 1 MiB"));
 }
 
+TEST_F(FilmWithTags, ListsThatTakeTooMuchMemoryAreRefused) {
+  const auto repeated = [](const std::string& id, const std::string& one, std::size_t bytes) {
+    std::string all;
+    while (all.size() < bytes) all += one;
+    return element(id, all);
+  };
+  const std::string cues = "\x1C\x53\xBB\x6B", tracks = "\x16\x54\xAE\x6B";
+  const std::string cue("\xBB\x82\xB7\x80", 4), track("\xAE\x80", 2);
+  const Error places = openErrorOf(with(repeated(cues, cue, 25'500'000)));
+  EXPECT_EQ(places.code, ErrorCode::Unsupported);
+  EXPECT_THAT(places.message, HasSubstr("places to seek to"));
+  EXPECT_THAT(openErrorOf(with(repeated(tracks, track, 4'200'000))).message, HasSubstr("list of tracks"));
+  EXPECT_TRUE(makeFfmpegSource()->open(with(repeated(cues, cue, 100'000)))) << "of a usual length";
+}
+
 TEST_F(FilmWithTags, ThoseThatASeekHeadPointsToAreCountedOnce) {
   const std::uint64_t place = beginOfMore() + seekTo(0, kTags).size();
   EXPECT_TRUE(makeFfmpegSource()->open(with(seekTo(place, kTags) + tags(3000))));
