@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -164,6 +165,56 @@ TEST(AssText, SaysWhetherItHasChanged) {
   EXPECT_FALSE(pictures.empty());
   EXPECT_TRUE(text.draw(frame, std::chrono::seconds(2), pictures));
   EXPECT_TRUE(pictures.empty());
+}
+
+// Whether there is ink in the upper left corner.
+bool isInTheCorner(const std::vector<TextPicture>& pictures) {
+  return std::ranges::any_of(pictures, [](const TextPicture& each) { return each.x < 100 && each.y < 100; });
+}
+constexpr const char* kCorner = "0,0,Default,,0,0,0,,{\\an7\\pos(10,10)\\fs20}seen";
+
+TEST(AssText, UpTo1000LinesAreAllSeen) {
+  auto made = AssText::create(true);
+  if (!made) GTEST_SKIP() << made.error().message;
+  AssText& text = *made;
+  text.begin(kHead);
+  for (int i = 0; i < 300; ++i)
+    text.add("0,0,Default,,0,0,0,,{\\pos(900,500)\\fs20}a", Duration(0), std::chrono::seconds(9));
+  text.add(kCorner, Duration(0), std::chrono::seconds(9));
+  std::vector<TextPicture> pictures;
+  ASSERT_TRUE(text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures));
+  EXPECT_TRUE(isInTheCorner(pictures));
+  text.begin(kHead);
+  for (int i = 0; i < 1000; ++i)
+    text.add("0,0,Default,,0,0,0,,{\\pos(900,500)\\fs20}a", Duration(0), std::chrono::seconds(9));
+  text.add(kCorner, Duration(0), std::chrono::seconds(9));
+  text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+  EXPECT_FALSE(isInTheCorner(pictures)) << "more than 1000";
+}
+
+// Each is a drawing of 3000 curves across one another, which takes libass some tenths of a second.
+TEST(AssText, LinesThatTakeTooLongAreLeftOut) {
+  auto made = AssText::create(true);
+  if (!made) GTEST_SKIP() << made.error().message;
+  AssText& text = *made;
+  text.begin(kHead);
+  std::minstd_rand random(1);
+  const auto place = [&] { return " " + std::to_string(random() % 500); };
+  std::string curves = "m 0 0";
+  for (int i = 0; i < 3000; ++i) curves += " b" + place() + place() + place() + place() + place() + place();
+  for (int i = 0; i < 200; ++i)
+    text.add("0,0,Default,,0,0,0,,{\\p1\\an7\\pos(600,150)\\frz" + std::to_string(0.1 * i) + "}" + curves, Duration(0),
+             std::chrono::seconds(9));
+  text.add(kCorner, Duration(0), std::chrono::seconds(9));
+  std::vector<TextPicture> pictures;
+  text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+  EXPECT_FALSE(isInTheCorner(pictures));
+  text.begin(kHead);
+  text.add(kCorner, Duration(0), std::chrono::seconds(9));
+  text.add("0,0,Default,,0,0,0,,{\\pos(900,500)}" + std::string(200000, 'x'), Duration(0), std::chrono::seconds(9));
+  text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+  ASSERT_EQ(pictures.size(), 1U) << "a line of 200 kB is left out";
+  EXPECT_TRUE(isInTheCorner(pictures)) << "another script";
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TextPicture placed(const SubtitlePicture& picture, const Subtitle& subtitle, con
 
 bool SubtitleWords::ready() {
   if (text_ || gave_up_) return text_.has_value();
-  auto text = AssText::create();
+  auto text = AssText::create(true);
   if (text) {
     text_.emplace(std::move(*text));
     text_->setSize(size_);

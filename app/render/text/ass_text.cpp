@@ -6,14 +6,21 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <ctime>
 #include <optional>
 #include <utility>
+
+#include "platform/log.h"
 
 namespace relievo {
 namespace {
 
 constexpr Error kNoFont{ErrorCode::NotFound, 0, "no font found; install one (Debian: fonts-dejavu-core)"};
 constexpr int kMostGlyphs = 2000, kMostBitmapsMb = 24;
+// A line of letters of any size, blurred, takes libass half a second and 30 MB, in which nothing can interrupt it.
+constexpr double kMostCostS = 1;           // of processor time, for all lines that are seen at once
+constexpr int kMostAtOnce = 1000;          // lines; signs that are drawn of many have hundreds
+constexpr std::size_t kMostLine = 100000;  // bytes; a sign that is drawn with curves has ten thousand
 
 struct FreeLibrary {
   void operator()(ASS_Library* library) const noexcept { ass_library_done(library); }
@@ -83,6 +90,38 @@ void blend(const ASS_Image& image, TextPicture& picture) noexcept {
   }
 }
 
+double processorS() noexcept {
+  timespec used{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+
+// The first lines of a script, so many that at most `most` are seen at `now_ms`, while it lives.
+class Shortened {
+ public:
+  Shortened(ASS_Track& track, long long now_ms, int most) noexcept : track_(track), all_(track.n_events) {
+    int end = 0;
+    for (; end < all_; ++end) {
+      const ASS_Event& line = track.events[end];
+      if (now_ms < line.Start || now_ms >= line.Start + line.Duration) continue;
+      if (seen_ == most) break;
+      ++seen_;
+    }
+    track.n_events = end;
+  }
+  ~Shortened() { track_.n_events = all_; }
+  Shortened(const Shortened&) = delete;
+  Shortened& operator=(const Shortened&) = delete;
+
+  [[nodiscard]] int seen() const noexcept { return seen_; }
+  [[nodiscard]] bool all() const noexcept { return track_.n_events == all_; }
+
+ private:
+  ASS_Track& track_;
+  const int all_;
+  int seen_ = 0;
+};
+
 struct MissingLetter {
   char32_t letter = 0;
   bool heard = false;
@@ -115,14 +154,45 @@ struct AssText::Parts {
   std::unique_ptr<ASS_Renderer, FreeRenderer> renderer;
   std::unique_ptr<ASS_Track, FreeTrack> track;
   std::optional<TextFrame> frame;
+  bool foreign = false;
+  int at_once = 1, most_at_once = kMostAtOnce;  // lines; the latter fewer once it was slow
+  bool told = false;
+
+  const ASS_Image* render(long long now_ms, int& changed);
+  void leaveOut(int most);
 };
+
+// Twice as many lines are tried while they are quick: scripts that cost too much are shown in part.
+const ASS_Image* AssText::Parts::render(long long now_ms, int& changed) {
+  if (!foreign) return ass_render_frame(renderer.get(), track.get(), now_ms, &changed);
+  for (;;) {
+    const Shortened script(*track, now_ms, std::min(at_once, most_at_once));
+    const double begun_s = processorS();
+    int differs = 0;
+    const ASS_Image* const images = ass_render_frame(renderer.get(), track.get(), now_ms, &differs);
+    changed |= differs;
+    const bool slow = processorS() - begun_s > kMostCostS;
+    if (slow && (told || script.seen() > 1)) leaveOut(script.seen() / 2);  // a single one may have loaded fonts
+    else if (!script.all() && at_once < most_at_once) {
+      at_once *= 2;
+      continue;
+    } else if (!script.all()) leaveOut(most_at_once);
+    return images;
+  }
+}
+
+void AssText::Parts::leaveOut(int most) {
+  most_at_once = most;
+  if (!std::exchange(told, true))
+    log(LogLevel::Warning, "play", "subtitles take too long to draw; some of their lines are left out");
+}
 
 AssText::AssText(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
 AssText::AssText(AssText&&) noexcept = default;
 AssText& AssText::operator=(AssText&&) noexcept = default;
 AssText::~AssText() = default;
 
-Result<AssText> AssText::create() {
+Result<AssText> AssText::create(bool foreign) {
   auto parts = std::make_unique<Parts>();
   parts->library.reset(ass_library_init());
   if (!parts->library) return fail(ErrorCode::Exhausted, "out of memory for text");
@@ -133,6 +203,7 @@ Result<AssText> AssText::create() {
   ass_set_cache_limits(parts->renderer.get(), kMostGlyphs, kMostBitmapsMb);
   AssText text(std::move(parts));
   if (!drawsLetters(text)) return std::unexpected(kNoFont);
+  text.parts_->foreign = foreign;
   return text;
 }
 
@@ -142,6 +213,9 @@ char32_t AssText::takeMissingLetter() noexcept {
 
 void AssText::begin(std::string_view head) {
   parts_->track.reset(ass_new_track(parts_->library.get()));
+  parts_->at_once = 1;
+  parts_->most_at_once = kMostAtOnce;
+  parts_->told = false;
   if (!parts_->track) return;
   std::string copy(head);
   ass_process_codec_private(parts_->track.get(), copy.data(), static_cast<int>(copy.size()));
@@ -151,6 +225,7 @@ void AssText::begin(std::string_view head) {
 
 void AssText::add(std::string_view line, Duration begin, Duration length) {
   if (!parts_->track) return;
+  if (parts_->foreign && line.size() > kMostLine) return parts_->leaveOut(parts_->most_at_once);
   std::string copy(line);
   ass_process_chunk(parts_->track.get(), copy.data(), static_cast<int>(copy.size()), milliseconds(begin),
                     milliseconds(length));
@@ -173,7 +248,7 @@ bool AssText::draw(const TextFrame& frame, Duration time, std::vector<TextPictur
     ass_set_pixel_aspect(renderer, static_cast<double>(frame.width) / frame.height / frame.aspect);
   }
   int changed = 0;
-  const ASS_Image* const images = ass_render_frame(renderer, parts_->track.get(), milliseconds(time), &changed);
+  const ASS_Image* const images = parts_->render(milliseconds(time), changed);
   if (changed == 0 && parts_->frame == frame && !anew) return false;
   parts_->frame = frame;
   pictures.clear();

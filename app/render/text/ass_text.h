@@ -16,8 +16,9 @@ namespace relievo {
 // A script in the form of Advanced SubStation: a head with styles, and lines with times. For one thread.
 class AssText {
  public:
-  // NotFound if there is no font.
-  [[nodiscard]] static Result<AssText> create();
+  // NotFound if there is no font. `foreign`: the scripts come with films. Of those that take seconds, or show over a
+  // thousand lines at once, a part is left out, and lines of over 100 kB; that is logged once a script.
+  [[nodiscard]] static Result<AssText> create(bool foreign = false);
   AssText(AssText&&) noexcept;
   AssText& operator=(AssText&&) noexcept;
   ~AssText();
