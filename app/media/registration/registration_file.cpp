@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/media/registration/registration.h"
+#include "platform/text/dotted_names.h"
 
 namespace relievo {
 namespace {
@@ -70,6 +71,7 @@ bool isRotation(const std::array<double, 9>& m) noexcept {
 
 Result<Registration> parseRegistration(std::string_view text) {
   const auto refuse = [](const char* rule) { return fail(ErrorCode::InvalidArgument, rule); };
+  if (lineWithTooManyDots(text) > 0) return refuse(kNoToml);
   toml::table table;
   try {
     table = toml::parse(text);

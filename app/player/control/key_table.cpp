@@ -14,6 +14,7 @@
 
 #include "hal/key_names.h"
 #include "platform/print.h"
+#include "platform/text/dotted_names.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -137,11 +138,13 @@ Outcome<KeyTable> KeyTable::load(const std::string& path) {
 
 Outcome<void> KeyTable::add(std::string_view text, const std::string& file) {
   const Reader reader(file);
+  constexpr const char* kNoToml = "not valid TOML; a line is KEY = \"command\" under [always] or a state";
+  if (const auto line = lineWithTooManyDots(text); line > 0) return reader.wrong({.begin = {line, 1}}, "", kNoToml);
   toml::table parsed;
   try {
     parsed = toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    return reader.wrong(error.source(), "", "not valid TOML; a line is KEY = \"command\" under [always] or a state");
+    return reader.wrong(error.source(), "", kNoToml);
   }
   for (const auto& [table_word, node] : parsed) {
     const auto table = tableNamed(table_word.str());

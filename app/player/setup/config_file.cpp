@@ -15,6 +15,7 @@
 #include "platform/atomic_file.h"
 #include "platform/files/answered_place.h"
 #include "platform/log.h"
+#include "platform/text/dotted_names.h"
 #include "platform/whole_file.h"
 
 namespace relievo {
@@ -109,11 +110,13 @@ Outcome<FileConfig> loadConfig(const std::string& path) {
 }
 
 Outcome<FileConfig> parseConfig(const std::string& text, const std::string& path) {
+  constexpr const char* kNoToml = "this is not valid TOML; a line is key = value under a [table]";
+  if (const auto line = lineWithTooManyDots(text); line > 0) return wrong(path, {.begin = {line, 1}}, kNoToml);
   toml::table parsed;
   try {
     parsed = toml::parse(text, path);
   } catch (const toml::parse_error& error) {
-    return wrong(path, error.source(), "this is not valid TOML; a line is key = value under a [table]");
+    return wrong(path, error.source(), kNoToml);
   }
   FileConfig config{.path = path};
   for (const auto& [table_name, table_node] : parsed) {

@@ -186,5 +186,13 @@ TEST(Registration, RefusesWhatIsNone) {
   EXPECT_EQ(registered(Frame{}, {}).error().code, ErrorCode::Unsupported);
 }
 
+TEST(RegistrationFile, NamesThatNestTooDeepAreNoToml) {
+  std::string deep = "[depth";
+  for (int i = 0; i < 60'000; ++i) deep += ".a";
+  const auto parsed = parseRegistration(deep + "]\n");
+  ASSERT_FALSE(parsed);
+  EXPECT_STREQ(parsed.error().message, "the registration is not valid TOML");
+}
+
 }  // namespace
 }  // namespace relievo

@@ -216,6 +216,9 @@ TEST_F(PlayConfig, WhatIsWrongIsOneLineThatNamesItsPlace) {
                 path() + ":2: haptics is no area of the log; they are all, control,");
   expectRefused("[log]\nhaptic = \"loud\"\n", 2, path() + ":2: a level is");
   expectRefused("[log]\nhaptic = 3\n", 2, path() + ":2: a level is");
+  std::string deep = "\n[play";
+  for (int i = 0; i < 60'000; ++i) deep += ".a";
+  expectRefused(deep + "]\nx = 1\n", 2, path() + ":2: this is not valid TOML");
 }
 
 TEST_F(PlayConfig, WithoutASourceThereHasToBeASocketToBeToldOne) {

@@ -291,6 +291,14 @@ INSTANTIATE_TEST_SUITE_P(Lines, KeyTableWrong,
                                          std::pair{"[paused]\n[asleep]\nRIGHT = \"stop\"", ""},
                                          std::pair{"\nRIGHT = \"stop\"", "RIGHT"}));
 
+TEST(KeyTable, NamesThatNestTooDeepAreNoToml) {
+  std::string deep = "# " + std::string(200, '.') + "\n[always";
+  for (int i = 0; i < 60'000; ++i) deep += ".a";
+  const auto table = KeyTable::parse(deep + "]\n", "k.toml");
+  ASSERT_FALSE(table);
+  EXPECT_EQ(table.error().thing, "k.toml:2");
+}
+
 TEST(KeyTable, AKeyThatMeansNothingInAStateMeansNothingThere) {
   const auto table = KeyTable::parse("[paused]\nRIGHT = \"\"\n", "k");
   ASSERT_TRUE(table);
