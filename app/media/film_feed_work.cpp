@@ -6,7 +6,7 @@
 #include "app/media/film_feed.h"
 #include "app/media/film_folder.h"
 #include "app/media/photo_list.h"
-#include "app/media/tracks/subtitle_file.h"
+#include "app/media/subtitle_file.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "app/media/tracks/subtitle_file.h"
+#include "app/media/subtitle_file.h"
 #include "platform/log.h"
 
 namespace relievo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/tracks/subtitle_file.h"
+#include "app/media/subtitle_file.h"
 
 #include <utility>
 
