@@ -286,7 +286,7 @@ void addPlayOptions(CLI::App& command, PlayOptions& play, const DeviceNames& nam
   command
       .add_flag("--from-desktop", play.from_desktop,
                 "For a desktop's menu, whose terminal nobody sees: a window that can play no film says why in the list "
-                "of films")
+                "of films,\nand a message box what ends the program before")
       ->configurable(false);
   addFileOptions(command, play);
   answerOptionsOfOthers(command);
