@@ -44,12 +44,15 @@ DepthCoder::DepthCoder(const DepthCalibration& source, const DepthCoding& coding
   const double low = source.lowCode(), high = source.highCode();
   from_luma_.resize(std::size_t{1} << source.bits);
   is_clipped_.resize(from_luma_.size());
+  // Into the codes between a band of holes and the range, coding has moved some of either.
+  const bool band = source.invalid.contains(0) && source.invalid.contains(1) && source.invalid.highest() < low;
+  const double lowest_told = band ? 0 : low;
   for (std::size_t i = 0; i < from_luma_.size(); ++i) {
     const double above = std::clamp(static_cast<double>(i), low, high) - low;
     const double near_high = source.polarity == DepthPolarity::NearIsHigh ? above : (high - low) - above;
     const bool hole = source.invalid.contains(static_cast<std::uint32_t>(i));
     const auto code = static_cast<double>(i);
-    is_clipped_[i] = !hole && (code < low || code > high) ? 1 : 0;
+    is_clipped_[i] = !hole && (code < lowest_told || code > high) ? 1 : 0;
     from_luma_[i] = hole ? kHole : codeOf(inLaw(near_high / (high - low), source, outcome_));
   }
 }

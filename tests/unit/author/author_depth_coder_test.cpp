@@ -99,6 +99,18 @@ TEST(AuthorDepthCoder, KeepsHolesApartFromDepthWhereTheCodecMovesCodes) {
   EXPECT_FALSE(DepthCoder({.bits = 16}, lossy).outcome().codes) << "no holes";
 }
 
+// In a film of the author's, coding has moved holes and far samples into the codes between them.
+TEST(AuthorDepthCoder, CodesBetweenABandOfHolesAndTheRangeAreNotClipped) {
+  const auto clipped = [](const CodeSet& holes) {
+    DepthCoder coder({.invalid = holes, .codes = CodeSet::Range{16, 250}}, kLossless);
+    DepthPicture picture;
+    EXPECT_TRUE(coder.encode(grayRow({0, 7, 9, 15, 16, 250, 251}, 8), picture));
+    return coder.counts().clipped;
+  };
+  EXPECT_EQ(clipped(CodeSet(CodeSet::Range{0, 7})), 1U);  // 251
+  EXPECT_EQ(clipped(CodeSet(0)), 4U);                     // 7, 9 and 15 as well
+}
+
 TEST(AuthorDepthCoder, MovesAHoleFromAnyCodeToZero) {
   const DepthCalibration source{.invalid = 255};
   EXPECT_EQ(coded(grayRow({0, 7, 254, 255}, 8), source), (Codes{1, 7, 254, 0}));
