@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <random>
 
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
@@ -218,6 +219,18 @@ TEST(ShadeReading, OfTwoShapesTheSquareOneIsTakenForSqueezed) {
   EXPECT_THAT(doubtsOf(square, {}, &wide), boxes("colour", "depth", "160x160x40"));
   EXPECT_THAT(doubtsOf(tall, {}, &square), boxes("depth", "colour", "160x160x40"));
   EXPECT_THAT(doubtsOf(tall, {}, &wide), boxes("colour", "depth", "96x160x40"));
+}
+
+// A tilted plane with the texture of a photo, with a sensor's rounding, and with steps of two codes.
+TEST(ShadeReading, DepthAsRoughAsAPhotoIsDoubted) {
+  std::mt19937 random(5);
+  const auto doubts = [&](int texture) {
+    std::uniform_int_distribution<int> grain(0, texture);
+    return doubtsOf(makeGrayFrame(320, 200, 8, {}, [&](int c, int r) { return 40 + (c + r) / 4 + grain(random); }), {});
+  };
+  EXPECT_THAT(doubts(20), ElementsAre(HasSubstr("as rough as a photo")));
+  EXPECT_THAT(doubts(1), IsEmpty());
+  EXPECT_THAT(doubts(2), IsEmpty());
 }
 
 // RealSense's Pattern; a fence has as many steps from black to white, but steep ones.
