@@ -13,7 +13,8 @@ namespace relievo::ffmpeg {
 
 // FFmpeg looks at a file with a million tags, or for the name of a server, for minutes in which nothing can interrupt
 // it. So each input is opened apart: `open` fails at the latest a moment after its time-out or an interrupt, and the
-// thread ends by itself. Of such threads there are at most eight: then `open` is Exhausted. All calls on one thread, except `interrupt`.
+// thread ends by itself. Of such threads there are at most eight: then `open` is Exhausted. All calls on one thread,
+// except `interrupt`.
 class Opener {
  public:
   // Lets go of the input, and of an interrupt. Its container must be closed.

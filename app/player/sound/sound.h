@@ -117,7 +117,7 @@ class Sound {
   int restarts_ = 0;           // without having settled in between
   MonotonicTime next_try_;
   std::optional<MonotonicTime> late_since_;  // a sound server has not answered since
-  std::optional<AudioFormat> other_;  // that the output has had since it was opened again
+  std::optional<AudioFormat> other_;         // that the output has had since it was opened again
   bool gave_up_ = false, lost_ = false, told_ = false;
   bool sounds_ = false;  // there has been sound to play
 
