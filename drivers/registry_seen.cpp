@@ -35,13 +35,14 @@ DeviceState lookAt(const char* kind, const char* name, const Outcome<std::unique
 // A sound server that has to be started first answers late.
 DeviceState lookAtSound(Clock& clock) {
   const auto made = makeAudioOutput("alsa", clock);
-  for (const MonotonicTime until = clock.now() + std::chrono::seconds(3); made && clock.now() < until;) {
+  if (!made) return {"audio", "alsa", false, made.error().error.message};
+  for (const MonotonicTime until = clock.now() + std::chrono::seconds(3);;) {
     const auto opened = (*made)->open({});
     (*made)->close();
-    if (opened || opened.error().code != ErrorCode::Timeout) break;
+    const bool is_late = !opened && opened.error().code == ErrorCode::Timeout && clock.now() < until;
+    if (!is_late) return {"audio", "alsa", opened.has_value(), opened ? "ready" : opened.error().message};
     clock.sleepUntil(clock.now() + std::chrono::milliseconds(50));
   }
-  return lookAt("audio", "alsa", made, AudioFormat{});
 }
 
 DeviceState windowsMouse(bool desktop) {

@@ -29,7 +29,7 @@ struct AudioPosition {
 // States: Closed -open-> Open; any -close-> Closed. A device that goes away answers Lost, at the latest to a `write`,
 // and stays in state Lost until closed. A call in a state that does not allow it returns InvalidState and changes
 // nothing.
-// Thread: one at a time. Blocking: `open` may take as long as a sound server needs; the others never wait.
+// Thread: one at a time. Blocking: `open` may wait half a second for a sound server, the others some milliseconds.
 // Playback starts with the first frames after `open` or `flush`. After an underrun it is silent and continues with the
 // next frames written. To pause a film, flush, and write the samples again to continue: not every device can pause with
 // samples in its buffer.
@@ -43,9 +43,10 @@ class AudioOutput {
   virtual ~AudioOutput() = default;
 
   // Returns the actual format: the nearest to `wished` that the device supports. NotFound, PermissionDenied,
-  // Unsupported, Exhausted (another program uses the device).
+  // Unsupported, Exhausted (another program uses the device), Timeout (a server that may answer the next time).
   [[nodiscard]] Result<AudioFormat> open(const AudioFormat& wished);
-  // Takes as many whole frames as fit, from the first on, and returns their number. Open only.
+  // Takes as many whole frames as fit, from the first on, and returns their number. Until a `flush` the next call must
+  // go on with the frame behind those: it may have been taken already. Open only.
   [[nodiscard]] Result<std::size_t> write(std::span<const float> samples);
   // nullopt while silent: before the first frame plays, and after an underrun. Open only.
   [[nodiscard]] Result<std::optional<AudioPosition>> position();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,6 +24,7 @@ using namespace std::chrono_literals;
 using alsa::Card;
 
 constexpr Duration kServerPatience = 3s;
+constexpr Duration kLastPatience = 500ms;  // a program that ends while the library closes a card may crash
 constexpr Error kNotYet{ErrorCode::Timeout, 0, "the sound server does not answer; start it anew"};
 
 // Keeps alsa-lib from printing to stderr; the program prints its own messages.
@@ -59,6 +61,7 @@ class AlsaOutput final : public AudioOutput {
     close();
     card_ = std::move(late_);
     closeOutput();
+    call_.wait(kLastPatience);
   }
   AlsaOutput(const AlsaOutput&) = delete;
   AlsaOutput& operator=(const AlsaOutput&) = delete;
@@ -68,7 +71,7 @@ class AlsaOutput final : public AudioOutput {
  private:
   // What the last call wrote, and its kind.
   struct Answer {
-    enum class Of : std::uint8_t { Nothing, Write, Delay, Drop } of = Of::Nothing;
+    enum class Of : std::uint8_t { Write, Delay, Drop } of = Of::Write;
     snd_pcm_sframes_t code = 0;  // of a write: frames; negative: ALSA's error
     snd_pcm_sframes_t waiting = 0;
   };

@@ -28,8 +28,13 @@ class OneCall {
       call->ended = true;
       call->end.notify_one();
     });
+    return wait(brief);
+  }
+  // Waits for the end of the last one: the same as `ended` afterwards.
+  bool wait(Duration patience) {
+    if (last_ == nullptr) return true;
     std::unique_lock lock(last_->mutex);
-    return last_->end.wait_for(lock, brief, [this] { return last_->ended; });
+    return last_->end.wait_for(lock, patience, [this] { return last_->ended; });
   }
   // On a helper thread: it may be closed there.
   void letGo(std::shared_ptr<void> what) {
