@@ -20,7 +20,7 @@ using Steady = std::chrono::steady_clock;
 
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at what may interrupt
 constexpr auto kGrace = std::chrono::milliseconds(200);  // in which FFmpeg usually ends when it is told to
-constexpr int kMostLeft = 8;
+constexpr int kMostLeft = 8;                             // as in kTooManyLeft
 constexpr Error kTooManyLeft{
     ErrorCode::Exhausted, 0,
     "8 films that were given up are still being opened, and nothing can end that; wait, or start the program again"};

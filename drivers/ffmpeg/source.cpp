@@ -67,12 +67,12 @@ class FfmpegSource final : public MediaSource {
     start_ = startOf(context);
     end_.open(context, start_);
     sought_ = false;
+    fresh_ = true;
     leading_stream_ = std::max(av_find_default_stream_index(&context), 0);
     earliest_stream_ = earliestStream(context, leading_stream_);
     context_ = std::move(opened->container);
     address_ = std::move(opened->address);
     beginTimes();
-    ahead_.clear();
     readStreamTags();
     return {};
   }
@@ -152,6 +152,7 @@ class FfmpegSource final : public MediaSource {
 
   // Returns FFmpeg's code, like av_read_frame.
   int readNext(PacketPtr& packet) {
+    fresh_ = false;
     if (ahead_.empty()) return opener_.input().readFrame(*context_, *packet);
     packet = std::move(ahead_.front());
     ahead_.pop_front();
@@ -215,6 +216,7 @@ class FfmpegSource final : public MediaSource {
   }
 
   void beginTimes() noexcept {
+    ahead_.clear();
     times_.begin();
     lengths_.begin();
     gaps_.begin();
@@ -228,9 +230,9 @@ class FfmpegSource final : public MediaSource {
 
   Result<void> seekTo(MediaTime target) override {
     if (watch().cancelled()) return std::unexpected(watch().explain({}));
-    // Where a multiplex cannot be searched, FFmpeg stays at its place and calls that sought.
     const bool in_vain =
         seeksByBytes() && context_->pb != nullptr && (context_->pb->seekable & AVIO_SEEKABLE_NORMAL) == 0;
+    if (in_vain && fresh_) return {};  // FFmpeg would stay at its place and call that sought, as here is right
     if (opener_.input().isPipe() || in_vain) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
     watch().begin(kReadPatience, lateReading(address_.way));
@@ -244,7 +246,6 @@ class FfmpegSource final : public MediaSource {
     if (sought < 0) return std::unexpected(watch().explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
     beginTimes();
     opener_.input().beginElsewhere();
-    ahead_.clear();
     end_.seek(target);
     sought_ = onwards;
     return {};
@@ -279,6 +280,7 @@ class FfmpegSource final : public MediaSource {
   bool timed_ = true;
   Duration start_{0};    // the container's start time
   bool sought_ = false;  // since it was opened, and not to the beginning
+  bool fresh_ = true;    // nothing has been read since then
   FileTimes times_;
   PacketLengths lengths_;
   FileGaps gaps_;
@@ -286,8 +288,7 @@ class FfmpegSource final : public MediaSource {
   FileEnd end_;
   std::deque<PacketPtr> ahead_;                                    // read while looking for tags, not returned yet
   std::map<int, std::map<std::string, std::string>> stream_tags_;  // by stream index
-  int leading_stream_ = 0;
-  int earliest_stream_ = 0;
+  int leading_stream_ = 0, earliest_stream_ = 0;
 };
 
 }  // namespace

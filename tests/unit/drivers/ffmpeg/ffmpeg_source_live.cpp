@@ -89,12 +89,14 @@ TEST(FfmpegSource, AMultiplexFromAServerOfWholeFilesCannotSeekAndGoesOn) {
   server.ranges = false;
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(server.url("a.ts")));
+  EXPECT_TRUE(source->seek(mediaTime(1))) << "all of it is still to be read";
+  ASSERT_TRUE(source->read());
   for (const double at_s : {1.0, 0.0}) {
     const auto sought = source->seek(mediaTime(at_s));
     ASSERT_FALSE(sought) << at_s;
     EXPECT_EQ(sought.error().code, ErrorCode::Unsupported);
   }
-  EXPECT_EQ(readAll(*source).size(), 48U);
+  EXPECT_EQ(readAll(*source).size(), 47U);
   server.ranges = true;
   const auto other = makeFfmpegSource();
   ASSERT_TRUE(other->open(server.url("a.ts")));
