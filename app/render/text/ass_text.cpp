@@ -172,6 +172,7 @@ const ASS_Image* AssText::Parts::render(long long now_ms, int& changed) {
     const ASS_Image* const images = ass_render_frame(renderer.get(), track.get(), now_ms, &differs);
     changed |= differs;
     const bool slow = processorS() - begun_s > kMostCostS;
+    if (script.seen() == 0 && script.all()) most_at_once = std::max(most_at_once, 1);  // what follows may be quick
     if (slow && (told || script.seen() > 1)) leaveOut(script.seen() / 2);  // a single one may have loaded fonts
     else if (!script.all() && at_once < most_at_once) {
       at_once *= 2;
