@@ -103,15 +103,38 @@ std::array<SampledBlock::Places, 2> halves(const SampledBlock::Places& places) R
 
 }  // namespace
 
-// Reading colours one by one is costly: a block in which they differ too much for their mean is read by its quarters,
-// and of a small one every other sample, as on a chessboard.
 double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   if (plain_) return meanOfCodes(c0, r0, block);
+  Known known;
+  addHeights(c0, r0, block, known);
+  return 2 * known.count < known.looked ? kHole : known.sum / known.count;
+}
+
+// Reading colours one by one is costly: a block in which they differ too much for their mean is read by its quarters,
+// and of a small one every other sample, as on a chessboard.
+void HeightField::addHeights(int c0, int r0, const SampledBlock& block, Known& known) const RELIEVO_RT {
+  const double samples = block.across.count * block.down.count;
   if (layout_ == Layout::Curve) {
     const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
-    if (!std::isnan(mean)) return mean;
+    if (!std::isnan(mean)) {
+      known.sum += samples * mean;
+      known.count += samples;
+      known.looked += samples;
+      return;
+    }
   }
   constexpr int kSmall = 8;
+  if (layout_ == Layout::Curve && std::min(block.across.count, block.down.count) >= kSmall) {
+    for (const SampledBlock::Places& down : halves(block.down)) {
+      for (const SampledBlock::Places& across : halves(block.across)) {
+        SampledBlock quarter = block;
+        quarter.across = across;
+        quarter.down = down;
+        addHeights(c0, r0, quarter, known);
+      }
+    }
+    return;
+  }
   double sum = 0;
   int count = 0, looked = 0;
   const auto add = [&](double z) {
@@ -120,22 +143,6 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     sum += z;
     ++count;
   };
-  if (layout_ == Layout::Curve && std::min(block.across.count, block.down.count) >= kSmall) {
-    for (const SampledBlock::Places& down : halves(block.down)) {
-      for (const SampledBlock::Places& across : halves(block.across)) {
-        SampledBlock quarter = block;
-        quarter.across = across;
-        quarter.down = down;
-        const int samples = across.count * down.count;
-        const double z = meanHeight(c0, r0, quarter);
-        looked += samples;
-        if (std::isnan(z)) continue;
-        sum += samples * z;
-        count += samples;
-      }
-    }
-    return 2 * count < looked ? kHole : sum / count;
-  }
   const int stride = layout_ == Layout::Curve ? 2 : 1;
   for (int j = 0; j < block.down.count; ++j) {
     const int r = r0 + block.down.first + j * block.down.step;
@@ -151,7 +158,10 @@ double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const 
     }
     for (; i < block.across.count; i += stride) add(heightMm(column(i), r));
   }
-  return 2 * count < looked ? kHole : sum / count;
+  const double each = samples / looked;  // of a chessboard every sample stands for two
+  known.sum += each * sum;
+  known.count += each * count;
+  known.looked += samples;
 }
 
 void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT {

@@ -99,6 +99,11 @@ class HeightField {
 
  private:
   bool operator==(const HeightField&) const = default;
+  // Of the samples of a block: the sum of the known heights, and how many they are.
+  struct Known {
+    double sum = 0, count = 0, looked = 0;
+  };
+  void addHeights(int c0, int r0, const SampledBlock& block, Known& known) const RELIEVO_RT;
   enum class Layout : std::uint8_t { Bytes, Words, Hue, Curve };
   [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
     const std::uint32_t low = sample[0];

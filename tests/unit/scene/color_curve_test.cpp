@@ -214,6 +214,15 @@ TEST(HueOverYuv, TheMeanOfABlockWithACornerOfTheCurveIsThatOfItsSamples) {
   }
 }
 
+// Three of eight samples are known, those of the upper quarters' upper three fourths: fewer than half.
+TEST(HueOverYuv, ABlockIsAHoleByAllOfItsSamples) {
+  const Film film{.cols = 48, .rows = 32, .color = [](int c, int r) { return r < 6 ? hue(0.1 + 0.02 * c) : Rgb{}; }};
+  const Frame frame = film.frame();
+  const auto field = HeightField::make(frame, kHue, kUnit).value();
+  EXPECT_TRUE(std::isnan(field.meanHeight(0, 0, {16, 16, 16})));
+  EXPECT_FALSE(std::isnan(field.meanHeight(0, 0, {16, 8, 16})));
+}
+
 // Samples of a row are read side by side; at edges, in black and at the seam one by one.
 TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
   const Film film{.color = [](int c, int r) { return c < 9 ? Rgb{} : hue(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
