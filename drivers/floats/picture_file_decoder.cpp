@@ -214,8 +214,8 @@ class PictureFileDecoder final : public VideoDecoder {
     if (reading_->codes.valuePerCode() < 0 || lowest == 0 || share < kLeast) return;
     log(LogLevel::Warning, "media",
         "%.0f %% of the numbers are below 0 (down to %g) and become holes; if they are heights, add a number that "
-        "lifts "
-        "all of them above 0, and give --as heights",
+        "lifts all "
+        "of them above 0, and give --as heights",
         100 * share, static_cast<double>(std::min(lowest, first)));
   }
 
