@@ -32,11 +32,13 @@ void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now
 // Films dropped on the window are played instead of the present one. Subtitles are shown with it.
 void Player::followDrops(MonotonicTime now) {
   std::vector<PlaylistEntry> films;
+  std::vector<std::string> words;
   for (std::string& url : screen_.takeDropped()) {
-    if (film_.isOpen() && isSubtitles(url)) addWords(url, now);
+    if (film_.isOpen() && isSubtitles(url)) words.push_back(std::move(url));
     else films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
   }
-  if (!films.empty()) openList(films, now);
+  if (!films.empty()) return openList(films, now);
+  for (const std::string& path : words) addWords(path, now);
 }
 
 void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {

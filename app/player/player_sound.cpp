@@ -67,13 +67,15 @@ void Player::chooseTracks(std::optional<std::size_t> sound, std::optional<std::s
   if (info.duration > Duration(0)) seek(film_.goal(now), PlayerEvent::Seek, false, now);
 }
 
-// A subtitle file that the viewer has dropped; dropped again, it is shown again.
+// A subtitle file that the viewer has dropped. The one that is shown is read again, since it may have been changed.
 void Player::addWords(const std::string& path, MonotonicTime now) {
   if (refusal({PlayerVerb::SubtitleTrack})) return obey({PlayerVerb::SubtitleTrack}, now);  // it says why
   const auto& tracks = film_.info().subtitles;
   const auto known = std::ranges::find(tracks, path, &FilmTrack::path);
-  const auto place = static_cast<double>(known - tracks.begin()) + 1;
-  if (known == tracks.end()) film_.addSubtitles({.path = path});
+  const auto at = static_cast<std::size_t>(known - tracks.begin());
+  const bool anew = known == tracks.end() || film_.info().words == at;
+  const auto place = static_cast<double>(anew ? tracks.size() : at) + 1;
+  if (anew) film_.addSubtitles({.path = path});
   obey({PlayerVerb::SubtitleTrack, place}, now);
 }
 
