@@ -64,6 +64,7 @@ void Player::leaveFilm(MonotonicTime now) {
   programme_.left(film_.begun());
   seeks_.forget();
   screen_.subtitles().forget();
+  screen_.text().forgetWarning(doubt_);  // of this film
   film_.close(now);
 }
 

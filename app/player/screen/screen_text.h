@@ -96,6 +96,9 @@ class ScreenText {
   // Shows why something does not work.
   void tell(std::string why, MonotonicTime now);
   void forgetWarning() noexcept { told_until_ = {}; }
+  void forgetWarning(const std::string& why) noexcept {
+    if (why_ == why) told_until_ = {};
+  }
   // Shows the effect of a key.
   void notice(ScreenNotice notice, MonotonicTime now);
   // The words of the notice that is shown now.
