@@ -154,17 +154,19 @@ int tellViewer(const Failure& failure, bool from_desktop) {
 int play(PlayOptions options, const FileConfig& config) {
   const std::atomic<bool>& stop = stopOnSignals(drivers::stopAllMotors);
   const CancelsAnswers cancels(stop);
-  const bool from_desktop = options.from_desktop;
+  const auto tellHere = [&stop, from_desktop = options.from_desktop](const Failure& failure) {
+    return tellViewer(failure, from_desktop && !stop);
+  };
   applyLogLevels(config);
   drivers::boundDecoderMemory();
   if (options.verbose) setLogLevel(LogLevel::Debug);
-  if (auto loaded = loadPlayFiles(options); !loaded) return tellViewer(loaded.error(), from_desktop);
-  if (auto apart = keepOutputsApart(options, config); !apart) return tellViewer(apart.error(), from_desktop);
+  if (auto loaded = loadPlayFiles(options); !loaded) return tellHere(loaded.error());
+  if (auto apart = keepOutputsApart(options, config); !apart) return tellHere(apart.error());
   MonotonicClock clock;
   const auto devices = makeDevices(options, config, clock);
-  if (!devices) return tellViewer(devices.error(), from_desktop);
+  if (!devices) return tellHere(devices.error());
   auto outputs = makeOutputs(options);
-  if (!outputs) return tellViewer(outputs.error(), from_desktop);
+  if (!outputs) return tellHere(outputs.error());
   PlayerControl control(std::move(outputs->socket), drivers::switchFault);
   const auto recorderOf = [](std::optional<Recorder>& recorder) { return recorder ? &*recorder : nullptr; };
 
@@ -186,7 +188,7 @@ int play(PlayOptions options, const FileConfig& config) {
   const PlayReport report = player.report();
   const int files = finishFiles(report, *outputs);
   if (played || report.frames_shown > 0) say(toText(report, options.verbose));
-  if (!played) return tellViewer(withNearFile(played.error()), from_desktop && !stop);
+  if (!played) return tellHere(withNearFile(played.error()));
   if (for_a_time && report.frames_shown == 0 && !report.source.empty() && !stop)
     return tell({report.source, kNoPicture});
   return resume && !player.placesAreKept() ? kExitFailed : files;  // the log has said why

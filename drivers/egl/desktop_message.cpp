@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDL's own message box, which needs no GL. It does not break lines itself.
 #include <SDL_messagebox.h>
+#include <pthread.h>
+#include <sys/prctl.h>
 
+#include <csignal>
 #include <sstream>
 
 #include "drivers/egl/egl.h"
@@ -19,6 +22,8 @@ void tellOnDesktop(const std::string& message) {
     column = fits ? column + 1 + word.size() : word.size();
     text += word;
   }
+  // SDL shows it from a process of its own, which would outlive this one.
+  ::pthread_atfork(nullptr, nullptr, [] { ::prctl(PR_SET_PDEATHSIG, SIGTERM); });
   if (desktopIsThere()) SDL_ShowSimpleMessageBox(SDL_MESSAGEBOX_ERROR, "relievo", text.c_str(), nullptr);
 }
 
