@@ -100,10 +100,12 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(included, "hal")) return true;
   if (isUnder(path, "hal")) return false;
   if (isRegistry(path)) return isUnder(included, "drivers");
-  // A bus, what devices with motors share, what a window hears, what kinds of pictures share, what input devices share.
+  // A bus, what devices with motors share, what a window hears, what kinds of pictures share, what input devices share,
+  // and what unpacks.
   if (isUnder(path, "drivers")) {
     if (driverOf(included) == driverOf(path)) return true;
     if (included == "drivers/evdev/event_nodes.h" || included == "drivers/evdev/event_reports.h") return true;
+    if (included == "drivers/scan/inflate.h") return true;
     return isUnder(included, "drivers/usb") || isUnder(included, "drivers/force") ||
            isUnder(included, "drivers/window") || isUnder(included, "drivers/floats") ||
            isUnder(included, "drivers/photo");
