@@ -167,7 +167,7 @@ int signOf(const SDL_Keysym& key, std::string_view typed) noexcept {
   return found == std::end(kShifted) ? key.sym : found->second;
 }
 
-std::optional<std::uint16_t> codeOf(SDL_Scancode scancode) noexcept {
+std::optional<std::uint16_t> codeOf(int scancode) noexcept {
   for (const KeyPair& key : kKeys) {
     if (key.scancode == scancode) return key.code;
   }
@@ -187,9 +187,9 @@ bool isForSigns(SDL_Scancode scancode) noexcept {
 }
 
 // SDL's scancodes of the letters are in the order of the alphabet, and so are its symbols.
-SDL_Scancode positionInUsa(const SDL_Keysym& key) noexcept {
+int positionInUsa(const SDL_Keysym& key) noexcept {
   const bool letter = key.sym >= SDLK_a && key.sym <= SDLK_z;
-  return letter ? static_cast<SDL_Scancode>(SDL_SCANCODE_A + (key.sym - SDLK_a)) : key.scancode;
+  return letter ? SDL_SCANCODE_A + (key.sym - SDLK_a) : key.scancode;
 }
 
 }  // namespace
