@@ -194,6 +194,13 @@ TEST(Scenarios, ASwirlGivesEnergyAndIsFoundOut) {
   EXPECT_GT(v.figure, 1) << "0.02 N/mm round a circle of 5 mm: 2 x 0.02 x its area";
 }
 
+// A lap on which the force leaps, or on which the sent force still follows, ends with another force than it began with.
+TEST(Scenarios, ALeapOfTheForceIsNoGainOfAClosedPath) {
+  const auto leapsOnce = stub([](const glm::dvec3&, int tick) { return glm::dvec3(tick < 300 ? 3 : 0, 0, 5); });
+  const Verdict v = judge("energy-loop", leapsOnce);
+  EXPECT_TRUE(v.pass) << v.figure << " " << v.limit.unit << ": " << v.why;
+}
+
 StageTick tickAt(double t, const glm::dvec3& hip, const glm::dvec3& sent) {
   return {.t_s = t, .hip_mm = hip, .sent_n = sent, .exchanged = true};
 }
