@@ -19,10 +19,13 @@ constexpr double kTimesTheNoise = 2;        // that are no waves
 constexpr double kEnds = 0.01;              // of the range, which a codec blurs
 constexpr double kClips = 3;                // deviations of the means of frames: so near the ends noise is clipped
 
-// A smoothing of blocks of the size h loses a slope of about .2 b/h where b is the fourth difference of such blocks:
-// .16 to .29 on sines of 6 to 10 mm in relievo-lab, .11 on one of 14 mm. Of smaller blocks the difference is smaller by
-// the third power of their size or more.
-constexpr double kSlopeOfWaves = 0.2;
+// The slope, in b/h, that a smoothing of blocks of the size h loses where b is the fourth difference of such blocks.
+// Blocks under a cubic B-spline that keeps curvature (ControlGrid) pass sinc(kh/2)^5 (1 + 5/12 (1 - cos kh)) of a wave
+// of the wavenumber k, 1 - 47/1152 (kh)^4 of a long one, and b is sinc(kh/2) (2 - 2 cos kh)^2 of it: .10, .084 and .071
+// b/h are lost with 3, 3.5 and 4 blocks to a wave, which the wide level is chosen to have, and .20, .17 and .14 b/h
+// with 2.1, 2.3 and 2.5, as waves may have on a broad level. Of smaller blocks the difference is smaller by the third
+// power of their size or more.
+constexpr double kSlopeOfWaves = 0.1, kSlopeOfSwells = 0.2;
 
 // From the smallest blocks to the largest. At H.264 crf 23 and 28 waves of 6 to 14 mm in relievo-lab grow by 2.9 and
 // more, what the codec makes of smooth scenes by 1.8 at most.
@@ -121,6 +124,7 @@ std::array<double, kSizes> ofSizes(const std::array<double, kSizes>& blocks_mm, 
   return waves;
 }
 
+// b/h for the blocks of a width.
 double flattened(double width_mm, std::span<const double> blocks_mm, std::span<const double> waves_mm) {
   const double block = width_mm / kSigmaPerPitch;
   double most = 0;
@@ -128,7 +132,7 @@ double flattened(double width_mm, std::span<const double> blocks_mm, std::span<c
     const double share = std::min(block / blocks_mm[k], 1.0);
     most = std::max(most, share * share * share * waves_mm[k]);
   }
-  return kSlopeOfWaves * most / block;
+  return most / block;
 }
 
 }  // namespace
@@ -152,11 +156,11 @@ double tracesAmong(const Waves& waves) {
 }
 
 double flattenedBy(double width_mm, const Waves& waves) {
-  return flattened(width_mm, std::span(kWaveBlocksMm).subspan(1), std::span(waves).subspan(1));
+  return kSlopeOfWaves * flattened(width_mm, std::span(kWaveBlocksMm).subspan(1), std::span(waves).subspan(1));
 }
 
 double swellsFlattenedBy(double width_mm, const Swells& swells) {
-  return flattened(width_mm, kSwellBlocksMm, swells);
+  return kSlopeOfSwells * flattened(width_mm, kSwellBlocksMm, swells);
 }
 
 }  // namespace relievo

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/depth_window/waves.h"
 #include "app/haptics/method/felt_surface.h"
 #include "tests/support/film/depth_frames.h"
 
@@ -115,6 +116,33 @@ TEST(TouchPlan, TellsWhatNoiseLeavesHoweverFineThePictureIs) {
   }
 }
 
+// A wave of three to four of the smoothing's blocks, as it is felt. Its amplitude counts at six places of ten: .81 of a
+// sine's height, which is 1.14 of its root mean square.
+TEST(TouchPlan, TellsWhatSmoothingLosesOfWaves) {
+  constexpr double kWidthMm = 2, kBlockMm = kWidthMm / kSigmaPerPitch, kHighMm = 0.3;
+  for (const double blocks : {3.1, 3.7}) {
+    const double turns_per_mm = 2 * std::numbers::pi / (blocks * kBlockMm);
+    const GridMapping grid(kVolume, 720, 486);
+    const Frame frame = makeGrayFrame(720, 486, 16, {}, [&](int c, int) {
+      return (20 + kHighMm * std::sin(turns_per_mm * grid.x(c))) / 40 * 65535 + 0.5;
+    });
+    SurfaceWindow window{.count = 1};
+    window.frames[0] = {HeightField::make(frame, {.bits = 16}, kVolume).value(), {}, frame.owner};
+    FeltSurface felt({.wide_mm = kWidthMm, .clamp_mm = 10});
+    ASSERT_TRUE(felt.moveTo(window, {}));
+    double lost2 = 0;
+    int places = 0;
+    for (double x = -30; x < 30; x += 0.37, ++places) {
+      const double off = turns_per_mm * kHighMm * std::cos(turns_per_mm * x) - felt.at(x, 0.3).zx;
+      lost2 += off * off;
+    }
+    const double told = flattenedBy(kWidthMm, wavesOf(std::span(window.frames).first(1), 0, 0, true));
+    const double lost = std::sqrt(lost2 / places);
+    EXPECT_GT(told, lost) << blocks;
+    EXPECT_LT(told, 1.6 * lost) << blocks;
+  }
+}
+
 // White noise s of samples p apart leaves s p/(w sqrt(4 pi)) of itself under a Gaussian of width w, and sqrt(.48) of
 // that under a B-spline in time.
 TEST(TouchPlan, TheClampHoldsFiveDeviationsOfTheNarrowLevelsNoise) {
@@ -184,6 +212,7 @@ TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {
 TEST(TouchPlan, SwellsThatABroadLevelWouldFlattenForbidIt) {
   EXPECT_GT(planFor(8, 0, false, 0.005, 10).scale.broad_mm, 0) << "too low to be felt";
   EXPECT_EQ(planFor(8, 0, false, 0.06, 10).scale.broad_mm, 0);
+  EXPECT_EQ(planFor(8, 0, false, 0.05, 13).scale.broad_mm, 0) << "2.4 of its blocks, which lose twice what four do";
   EXPECT_EQ(planFor(8, 0.4, true, 0.06, 10).scale.broad_mm, 0);
   EXPECT_EQ(planFor(8, 2, true, 0.6, 14).scale.broad_mm, 0);
 }
