@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Video decoder on libavcodec: software decoding on few threads; returns references to pictures.
 #include <cerrno>
+#include <cstdint>
+#include <span>
 #include <utility>
 
-#include "drivers/ffmpeg/bounds/png_texts.h"
+#include "drivers/ffmpeg/bounds/png_bounds.h"
 #include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
@@ -25,6 +27,11 @@ constexpr const char* kNoMemory = "out of memory in the video decoder";
 // True if the decoder concealed lost data in the picture by guesses.
 bool isMended(const AVFrame& picture) noexcept {
   return (picture.flags & AV_FRAME_FLAG_CORRUPT) != 0 || picture.decode_error_flags != 0;
+}
+
+// True for pictures of a folder or a film that FFmpeg would decode for long, or into much memory.
+bool exceedsBound(AVCodecID codec, std::span<const std::uint8_t> picture) {
+  return codec == AV_CODEC_ID_PNG && exceededPngBound(readable(picture)) != nullptr;
 }
 
 // FFmpeg's own decoders of WebM's codecs leave the alpha channel out; libvpx's read it.
@@ -94,7 +101,7 @@ class FfmpegDecoder final : public VideoDecoder {
   Result<Feed> feedPacket(const Packet& packet) override {
     if (packet.bytes == 0) return Feed::Accepted;  // FFmpeg would take it for the end
     if (!fillPacket(*packet_, packet, time_base_)) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
-    const bool refused = context_->codec_id == AV_CODEC_ID_PNG && hasTooManyTexts({packet.data, packet.bytes});
+    const bool refused = exceedsBound(context_->codec_id, std::span(packet.data, packet.bytes));
     const int sent = refused ? AVERROR_INVALIDDATA : avcodec_send_packet(context_.get(), packet_.get());
     av_packet_unref(packet_.get());
     if (sent == AVERROR(EAGAIN)) return Feed::Full;
@@ -120,7 +127,8 @@ class FfmpegDecoder final : public VideoDecoder {
         FramePtr picture(av_frame_alloc());
         if (!picture) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
         av_frame_move_ref(picture.get(), picture_.get());
-        av_dict_free(&picture->metadata);  // a PNG's texts, which nobody reads
+        av_dict_free(&picture->metadata);  // a PNG's texts, which nobody reads, nor its profile
+        av_frame_remove_side_data(picture.get(), AV_FRAME_DATA_ICC_PROFILE);
         moment = views_.add(std::move(picture));
         if (!moment.base) continue;
       }

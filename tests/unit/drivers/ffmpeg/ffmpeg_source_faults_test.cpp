@@ -19,7 +19,6 @@
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 extern "C" {
-#include <libavutil/frame.h>
 #include <libavutil/mem.h>
 }
 
@@ -195,74 +194,6 @@ TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   const auto fits = makeFfmpegSource();
   ASSERT_TRUE(fits->open(folder / "b.png"));
   EXPECT_EQ(fits->streams()[0].width, 4096);
-}
-
-// FFmpeg's time for the texts grows with the square of their number: 100,000 took it minutes.
-TEST(FfmpegSource, APngWithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecoded) {
-  TemporaryFolder folder;
-  makeClip(folder / "plain.png", {{.codec = "png", .pix_fmt = "gray", .width = 64, .height = 48, .frames = 1}});
-  std::ifstream file(folder / "plain.png", std::ios::binary);
-  const std::string plain(std::istreambuf_iterator<char>(file), {});
-  constexpr std::size_t kHeader = 33;  // the signature and IHDR
-  const auto with = [&](int texts, int others = 0) {
-    std::string picture = plain.substr(0, kHeader);
-    for (int other = 0; other < others; ++other) picture += std::string("\0\0\0\0npTC....", 12);
-    for (int text = 0; text < texts; ++text) picture += std::string("\0\0\0\3tEXta\0b\xdcI\xa2;", 15);
-    return picture + plain.substr(kHeader);
-  };
-  writeFile(folder / "most.png", with(1000));
-  EXPECT_TRUE(makeFfmpegSource()->open(folder / "most.png"));
-  writeFile(folder / "more.png", with(1001));
-  const Error error = openErrorOf(folder / "more.png");
-  EXPECT_EQ(error.code, ErrorCode::Unsupported);
-  EXPECT_THAT(error.message, HasSubstr("more than 1000 texts"));
-  writeFile(folder / "behind.png", with(1001, 50000));
-  EXPECT_EQ(openErrorOf(folder / "behind.png").code, ErrorCode::Unsupported);
-  writeFile(folder / "chunks.png", with(0, 100001));
-  EXPECT_EQ(openErrorOf(folder / "chunks.png").code, ErrorCode::Unsupported) << "what is behind them is not looked at";
-
-  const auto source = makeFfmpegSource();
-  ASSERT_TRUE(source->open(folder / "plain.png"));
-  for (const int texts : {1000, 1001}) {  // a picture of a folder reaches the decoder as it is
-    const auto decoder = makeFfmpegDecoder();
-    ASSERT_TRUE(decoder->open(source->streams()[0]));
-    const std::string picture = with(texts);
-    const auto bytes = std::make_shared<std::vector<std::uint8_t>>(picture.begin(), picture.end());
-    ASSERT_TRUE(decoder->feed({.data = bytes->data(), .bytes = bytes->size(), .keyframe = true, .owner = bytes}));
-    EXPECT_EQ(decoder->damaged(), texts > 1000 ? 1u : 0u);
-  }
-}
-
-// A compressed text becomes up to a thousand times as long: ten of 200 KB took over 6 GB.
-TEST(FfmpegSource, APngWithLongCompressedTextsIsRefusedAndTextsAreNotKept) {
-  TemporaryFolder folder;
-  makeClip(folder / "plain.png", {{.codec = "png", .pix_fmt = "gray", .width = 64, .height = 48, .frames = 1}});
-  const std::string plain = test::contentOf(folder / "plain.png");
-  constexpr std::size_t kHeader = 33;  // the signature and IHDR
-  const auto chunk = [](const std::string& type, std::uint32_t bytes) {
-    std::string length;
-    for (const int shift : {24, 16, 8, 0}) length += static_cast<char>(bytes >> shift & 0xFF);
-    return length + type + "a" + std::string(bytes - 1, '\0') + "....";  // FFmpeg does not check the sum
-  };
-  const auto with = [&](const std::string& more) {
-    writeFile(folder / "a.png", plain.substr(0, kHeader) + more + plain.substr(kHeader));
-    return folder / "a.png";
-  };
-  EXPECT_TRUE(makeFfmpegSource()->open(with(chunk("zTXt", 131072))));
-  EXPECT_EQ(openErrorOf(with(chunk("zTXt", 131073))).code, ErrorCode::Unsupported);
-  EXPECT_EQ(openErrorOf(with(chunk("zTXt", 70000) + chunk("zTXt", 70000))).code, ErrorCode::Unsupported);
-  EXPECT_TRUE(makeFfmpegSource()->open(with(chunk("iCCP", 500000))));
-  EXPECT_EQ(openErrorOf(with(chunk("iCCP", 10) + chunk("iCCP", 500000))).code, ErrorCode::Unsupported);
-
-  const auto source = makeFfmpegSource();
-  ASSERT_TRUE(source->open(with(chunk("tEXt", 100))));
-  const auto decoder = makeFfmpegDecoder();
-  ASSERT_TRUE(decoder->open(source->streams()[0]));
-  ASSERT_TRUE(decoder->feed(*source->read().value()));
-  ASSERT_TRUE(decoder->drain());
-  const auto frame = decoder->receive().value();
-  ASSERT_TRUE(frame);
-  EXPECT_EQ(static_cast<const AVFrame*>(frame->owner.get())->metadata, nullptr);
 }
 
 TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {

@@ -13,7 +13,8 @@ RELIEVO_LICENSE = Apache-2.0
 RELIEVO_LICENSE_FILES = LICENSE
 RELIEVO_DEPENDENCIES = \
 	host-pkgconf alsa-lib cli11 ffmpeg glm json-for-modern-cpp libass \
-	libdrm libegl libevdev libgbm libgles libusb sdl2 tiff tomlplusplus
+	libdrm libegl libevdev libgbm libgles libusb sdl2 tiff tomlplusplus \
+	zlib
 RELIEVO_CONF_OPTS = \
 	-DRELIEVO_DESK=OFF \
 	-DRELIEVO_TESTS=OFF \
@@ -47,7 +48,7 @@ RELIEVO_CONF_OPTS += -DRELIEVO_OPENNI=OFF
 endif
 
 ifeq ($(BR2_PACKAGE_RELIEVO_SCAN),y)
-RELIEVO_DEPENDENCIES += lz4 zlib
+RELIEVO_DEPENDENCIES += lz4
 RELIEVO_CONF_OPTS += -DRELIEVO_SCAN=ON
 else
 RELIEVO_CONF_OPTS += -DRELIEVO_SCAN=OFF

@@ -11,7 +11,7 @@ LICENSE_FLAGS = "commercial"
 PV = "0.1.0"
 
 DEPENDS = "alsa-lib cli11 ffmpeg glm libass libdrm libevdev libsdl2 libusb1 \
-           nlohmann-json tiff tomlplusplus virtual/egl virtual/libgbm virtual/libgles2"
+           nlohmann-json tiff tomlplusplus virtual/egl virtual/libgbm virtual/libgles2 zlib"
 
 inherit cmake externalsrc features_check pkgconfig systemd useradd
 
@@ -25,7 +25,7 @@ PACKAGECONFIG[gstreamer] = "-DRELIEVO_GSTREAMER=ON,-DRELIEVO_GSTREAMER=OFF,gstre
 PACKAGECONFIG[rosbag] = "-DRELIEVO_ROSBAG=ON,-DRELIEVO_ROSBAG=OFF,bzip2 lz4 sqlite3 zstd"
 PACKAGECONFIG[heif] = "-DRELIEVO_HEIF=ON,-DRELIEVO_HEIF=OFF,libheif"
 PACKAGECONFIG[openni] = "-DRELIEVO_OPENNI=ON,-DRELIEVO_OPENNI=OFF"
-PACKAGECONFIG[scan] = "-DRELIEVO_SCAN=ON,-DRELIEVO_SCAN=OFF,lz4 zlib"
+PACKAGECONFIG[scan] = "-DRELIEVO_SCAN=ON,-DRELIEVO_SCAN=OFF,lz4"
 PACKAGECONFIG[stereo-play] = "-DRELIEVO_STEREO_PLAY=ON,-DRELIEVO_STEREO_PLAY=OFF"
 EXTRA_OECMAKE = "-DRELIEVO_DESK=OFF -DRELIEVO_TESTS=OFF -DRELIEVO_EXR=OFF"
 

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNGs that FFmpeg would decode for seconds, or into much memory: refused as files, and as packets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/ffmpeg/ffmpeg.h"
+#include "tests/support/files.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
+
+extern "C" {
+#include <libavutil/frame.h>
+}
+
+namespace relievo {
+namespace {
+
+using test::makeClip;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+std::string bigEndian(std::size_t number, int bytes) {
+  std::string out;
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) out += static_cast<char>(number >> shift & 0xFF);
+  return out;
+}
+
+// A picture of a folder reaches the decoder as it is.
+std::uint64_t damagedOf(const StreamInfo& stream, const std::string& picture) {
+  const auto decoder = makeFfmpegDecoder();
+  EXPECT_TRUE(decoder->open(stream));
+  const auto bytes = std::make_shared<std::vector<std::uint8_t>>(picture.begin(), picture.end());
+  EXPECT_TRUE(decoder->feed({.data = bytes->data(), .bytes = bytes->size(), .keyframe = true, .owner = bytes}));
+  return decoder->damaged();
+}
+
+class APng : public testing::Test {
+ protected:
+  APng() {
+    makeClip(folder_ / "plain.png", {{.codec = "png", .pix_fmt = "gray", .width = 64, .height = 48, .frames = 1}});
+    plain_ = test::contentOf(folder_ / "plain.png");
+  }
+
+  static std::string chunk(const std::string& type, const std::string& data) {
+    return bigEndian(data.size(), 4) + type + data + "....";  // FFmpeg does not check the sum
+  }
+  // A profile or compressed text that unpacks to so many bytes, repeats of `what`.
+  static std::string packed(const std::string& type, std::size_t bytes, const std::string& what = "x") {
+    std::string unpacked;
+    while (unpacked.size() < bytes) unpacked += what;
+    unpacked.resize(bytes);
+    std::string stream(::compressBound(bytes), '\0');
+    uLongf length = stream.size();
+    EXPECT_EQ(::compress(reinterpret_cast<Bytef*>(stream.data()), &length,
+                         reinterpret_cast<const Bytef*>(unpacked.data()), bytes),
+              Z_OK);
+    return chunk(type, std::string("name\0\0", 6) + stream.substr(0, length));
+  }
+  static std::string times(int count, const std::string& one) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += one;
+    return all;
+  }
+  [[nodiscard]] std::string with(const std::string& more) const {
+    constexpr std::size_t kHeader = 33;  // the signature and IHDR
+    return plain_.substr(0, kHeader) + more + plain_.substr(kHeader);
+  }
+  std::string fileWith(const std::string& more) {
+    writeFile(folder_ / "a.png", with(more));
+    return folder_ / "a.png";
+  }
+  [[nodiscard]] StreamInfo stream() const {
+    const auto source = makeFfmpegSource();
+    EXPECT_TRUE(source->open(folder_ / "plain.png"));
+    return source->streams()[0];
+  }
+
+ private:
+  const TemporaryFolder folder_;
+  std::string plain_;
+};
+
+// FFmpeg's time for the texts grows with the square of their number: 100,000 took it minutes.
+TEST_F(APng, WithMoreTextsThanAnyProgramWritesIsRefusedBeforeItIsDecoded) {
+  const std::string text = chunk("tEXt", std::string("a\0b", 3)), other = chunk("npTC", "");
+  EXPECT_TRUE(makeFfmpegSource()->open(fileWith(times(1000, text))));
+  const Error error = openErrorOf(fileWith(times(1001, text)));
+  EXPECT_EQ(error.code, ErrorCode::Unsupported);
+  EXPECT_THAT(error.message, HasSubstr("more than 1000 texts"));
+  EXPECT_EQ(openErrorOf(fileWith(times(50000, other) + times(1001, text))).code, ErrorCode::Unsupported);
+  EXPECT_EQ(openErrorOf(fileWith(times(100001, other))).code, ErrorCode::Unsupported)
+      << "what is behind them is not looked at";
+  EXPECT_EQ(damagedOf(stream(), with(times(1000, text))), 0u);
+  EXPECT_EQ(damagedOf(stream(), with(times(1001, text))), 1u);
+}
+
+// They become up to a thousand times as long: ten texts of 200 KB took over 6 GB, a profile of 290 KB 8 s.
+TEST_F(APng, WithTextsOrAProfileThatUnpackToOver16MiBIsRefused) {
+  constexpr std::size_t kMost = std::size_t{1} << 24;
+  for (const char* type : {"zTXt", "iCCP"}) {
+    EXPECT_TRUE(makeFfmpegSource()->open(fileWith(packed(type, kMost)))) << type;
+    const Error error = openErrorOf(fileWith(packed(type, kMost + 1)));
+    EXPECT_EQ(error.code, ErrorCode::Unsupported) << type;
+    EXPECT_THAT(error.message, HasSubstr("16 MiB of compressed texts and colour profiles"));
+    EXPECT_EQ(openErrorOf(fileWith(packed(type, 9'000'000) + packed(type, 9'000'000))).code, ErrorCode::Unsupported);
+    EXPECT_EQ(damagedOf(stream(), with(packed(type, kMost + 1))), 1u) << type;
+  }
+  const std::string name(80, 'n');  // FFmpeg unpacks a text with a longer name than may be
+  EXPECT_EQ(openErrorOf(fileWith(chunk("zTXt", name + std::string(20, '\0')))).code, ErrorCode::Unsupported);
+}
+
+TEST_F(APng, WithAUsualOrADamagedProfileIsOpened) {
+  std::string noise;  // hardly packs: of 500 kB, as print shops have
+  std::uint32_t state = 1;
+  while (noise.size() < 500'000) noise += static_cast<char>((state = state * 1664525 + 1013904223) >> 24);
+  EXPECT_TRUE(makeFfmpegSource()->open(fileWith(packed("iCCP", noise.size(), noise))));
+  EXPECT_EQ(damagedOf(stream(), with(packed("iCCP", noise.size(), noise))), 0u);
+  EXPECT_TRUE(makeFfmpegSource()->open(fileWith(chunk("iCCP", std::string("a\0\0", 3) + std::string(500'000, '\0')))));
+  EXPECT_TRUE(makeFfmpegSource()->open(fileWith(chunk("zTXt", "a"))));
+}
+
+TEST_F(APng, LeavesNeitherItsTextsNorItsProfileWithThePicture) {
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(fileWith(chunk("tEXt", std::string("a\0b", 3)) + packed("iCCP", 1000))));
+  const auto decoder = makeFfmpegDecoder();
+  ASSERT_TRUE(decoder->open(source->streams()[0]));
+  ASSERT_TRUE(decoder->feed(*source->read().value()));
+  ASSERT_TRUE(decoder->drain());
+  const auto frame = decoder->receive().value();
+  ASSERT_TRUE(frame);
+  const auto& picture = *static_cast<const AVFrame*>(frame->owner.get());
+  EXPECT_EQ(picture.metadata, nullptr);
+  EXPECT_EQ(av_frame_get_side_data(&picture, AV_FRAME_DATA_ICC_PROFILE), nullptr);
+}
+
+}  // namespace
+}  // namespace relievo
