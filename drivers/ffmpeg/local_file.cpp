@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
-#include "drivers/ffmpeg/bounds/matroska_tags.h"
+#include "drivers/ffmpeg/bounds/matroska_bounds.h"
 #include "drivers/ffmpeg/bounds/png_bounds.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/file_system_answer.h"
@@ -72,8 +72,9 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     if (file.error().code == ErrorCode::Timeout) watch.noteUnanswered(file.error());
     return std::unexpected(file.error());
   }
-  if (const char* const why = exceededPngBound(readable(*file))) return fail(ErrorCode::Unsupported, why);
-  if (const char* const why = tooManyTags(*file)) return fail(ErrorCode::Unsupported, why);
+  for (const auto exceeded : {exceededPngBound, exceededMatroskaBound}) {
+    if (const char* const why = exceeded(readable(*file))) return fail(ErrorCode::Unsupported, why);
+  }
   auto local = std::make_unique<LocalFile>(std::move(*file), &watch);
   auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
   AVIOContext* const context =

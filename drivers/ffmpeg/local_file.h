@@ -17,8 +17,8 @@ namespace relievo::ffmpeg {
 // The path in "file:a" and in "a"; empty for other addresses.
 [[nodiscard]] std::string localPathOf(const std::string& url);
 
-// Fails as AnsweredFile::open, and for a PNG with too many texts or a Matroska film with too many tags. `watch` must
-// outlive it; it learns when the file system does not answer.
+// Fails as AnsweredFile::open, and for a film or picture that exceeds its format's bounds. `watch` must outlive it; it
+// learns when the file system does not answer.
 [[nodiscard]] Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch);
 // FFmpeg's code for an error of a local file.
 [[nodiscard]] int codeOf(const Error& error) noexcept;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the tags of a Matroska file before FFmpeg reads them: its time for them grows with the square of their number.
-// Chapters take it 430 bytes of memory each, tracks 55 times the bytes that they have in the file, places to seek
-// to 18.
+// Looks at the lists of a Matroska file before FFmpeg reads them: its time for tags grows with the square of their
+// number, and each list takes memory several times. A chapter takes it 430 bytes, a track 1500, an attachment 70 and
+// twice its data, places to seek to 18 times the bytes that they have in the file.
 #pragma once
 
-#include "platform/files/answered_file.h"
+#include "drivers/ffmpeg/bounds/readable.h"
 
 namespace relievo::ffmpeg {
 
@@ -20,15 +20,24 @@ inline constexpr const char* kTooLongChapters =
     "it is a Matroska film whose chapters are longer than 1 MiB, the most that they may be; convert it without them: "
     "ffmpeg -i FILE -map 0 -map_chapters -1 -c copy film.mp4";
 
+// FFmpeg itself takes at most 1000 tracks and attachments.
 inline constexpr const char* kTooManyTracks =
-    "it is a Matroska film whose list of tracks is longer than 4 MiB, the most that it may be; keep a few of them: "
-    "ffmpeg -i FILE -map 0:v -map 0:a? -c copy film.mkv";
+    "it is a Matroska film whose list of tracks is longer than 4 MiB or 1000 tracks, the most that it may be; keep a "
+    "few of them: ffmpeg -i FILE -map 0:v -map 0:a? -c copy film.mkv";
+// Fonts, mostly: films with subtitles in Chinese have up to 100 MB of them.
+inline constexpr const char* kTooManyAttachments =
+    "it is a Matroska film with more than 1000 attachments or 128 MiB of them, the most that it may have; copy it "
+    "without them: ffmpeg -i FILE -map 0 -map -0:t -c copy film.mkv";
 inline constexpr const char* kTooManyCues =
     "it is a Matroska film whose list of places to seek to is longer than 24 MiB, the most that it may be; cut it in "
     "two: ffmpeg -i FILE -map 0 -c copy -f segment -segment_time 1:00:00 film-%d.mkv";
+// A film has about ten.
+inline constexpr const char* kTooManyElements =
+    "it is a Matroska film with more than 1000 elements before its pictures, or more than 1 MiB of places of its "
+    "elements, the most that it may have; write it anew: ffmpeg -i FILE -map 0 -c copy film.mkv";
 
 // Which of these holds, or null. Looks where FFmpeg looks: before the first cluster, and where seek heads point to.
 // Null for what is no Matroska, and for what cannot be read.
-[[nodiscard]] const char* tooManyTags(const AnsweredFile& file);
+[[nodiscard]] const char* exceededMatroskaBound(const Readable& file);
 
 }  // namespace relievo::ffmpeg
