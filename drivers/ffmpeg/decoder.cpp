@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "drivers/ffmpeg/bounds/jpeg_bounds.h"
 #include "drivers/ffmpeg/bounds/png_bounds.h"
 #include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
@@ -31,7 +32,8 @@ bool isMended(const AVFrame& picture) noexcept {
 
 // True for pictures of a folder or a film that FFmpeg would decode for long, or into much memory.
 bool exceedsBound(AVCodecID codec, std::span<const std::uint8_t> picture) {
-  return codec == AV_CODEC_ID_PNG && exceededPngBound(readable(picture)) != nullptr;
+  if (codec == AV_CODEC_ID_PNG) return exceededPngBound(readable(picture)) != nullptr;
+  return codec == AV_CODEC_ID_MJPEG && exceededJpegBound(readable(picture)) != nullptr;
 }
 
 // FFmpeg's own decoders of WebM's codecs leave the alpha channel out; libvpx's read it.

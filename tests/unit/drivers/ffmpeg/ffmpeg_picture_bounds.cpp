@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNGs that FFmpeg would decode for seconds, or into much memory: refused as files, and as packets.
+// PNGs and JPEGs that FFmpeg would decode for seconds, or into much memory: refused as files, and as packets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -135,6 +135,56 @@ TEST_F(APng, LeavesNeitherItsTextsNorItsProfileWithThePicture) {
   const auto& picture = *static_cast<const AVFrame*>(frame->owner.get());
   EXPECT_EQ(picture.metadata, nullptr);
   EXPECT_EQ(av_frame_get_side_data(&picture, AV_FRAME_DATA_ICC_PROFILE), nullptr);
+}
+
+// A progressive JPEG (ITU-T T.81) of 16 x 16 in gray: a scan of the means, and others that say "nothing more".
+class AJpeg : public testing::Test {
+ protected:
+  static std::string segment(char marker, const std::string& data) {
+    return std::string("\xFF") + marker + bigEndian(data.size() + 2, 2) + data;
+  }
+  static std::string begin() {
+    using namespace std::string_literals;
+    return "\xFF\xD8"s + segment('\xDB', "\0"s + std::string(64, '\1')) +
+           segment('\xC2', "\10\0\20\0\20\1\1\x11\0"s) +                   // 8 bits, 16 x 16, one component
+           segment('\xC4', "\0\1"s + std::string(15, '\0') + "\0"s) +      // one code: no change of the mean
+           segment('\xC4', "\x10\1"s + std::string(15, '\0') + "\x20"s) +  // one code: four blocks and on have none
+           segment('\xDA', "\1\1\0\0\0\1"s) + "\0"s;                       // the means
+  }
+  static std::string scans(int count) {
+    using namespace std::string_literals;
+    std::string all;
+    for (int i = 0; i < count; ++i) all += segment('\xDA', "\1\1\0\1\77\1"s) + "\x1F"s;  // a code, 00 and filling
+    return all;
+  }
+  static std::string jpeg(int count, const std::string& more = "") {
+    return begin() + more + scans(count - 1) + "\xFF\xD9";
+  }
+  std::string file(const std::string& content) {
+    writeFile(folder_ / "a.jpg", content);
+    return folder_ / "a.jpg";
+  }
+
+ private:
+  const TemporaryFolder folder_;
+};
+
+TEST_F(AJpeg, WithOver500ScansIsRefusedBeforeItIsDecoded) {
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(file(jpeg(500))));
+  EXPECT_EQ(damagedOf(source->streams()[0], jpeg(500)), 0u);
+  EXPECT_EQ(damagedOf(source->streams()[0], jpeg(501)), 1u);
+  EXPECT_EQ(damagedOf(source->streams()[0], "garbage" + jpeg(501)), 1u);
+  const Error error = openErrorOf(file(jpeg(501)));
+  EXPECT_EQ(error.code, ErrorCode::Unsupported);
+  EXPECT_THAT(error.message, HasSubstr("more than 500 scans"));
+}
+
+TEST_F(AJpeg, ScansOfAPreviewInItsHeaderAndOfWhatFollowsItAreNotCounted) {
+  const std::string preview = segment('\xE1', jpeg(400)) + segment('\xFE', jpeg(400));
+  EXPECT_TRUE(makeFfmpegSource()->open(file(jpeg(400, preview))));
+  EXPECT_TRUE(makeFfmpegSource()->open(file(jpeg(400) + std::string(40'000, '\0') + jpeg(400))));
+  EXPECT_EQ(openErrorOf(file(jpeg(400) + jpeg(400))).code, ErrorCode::Unsupported) << "two fields";
 }
 
 }  // namespace
