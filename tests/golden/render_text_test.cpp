@@ -217,5 +217,24 @@ TEST(AssText, LinesThatTakeTooLongAreLeftOut) {
   EXPECT_TRUE(isInTheCorner(pictures)) << "another script";
 }
 
+// Five such letters took libass 7 s and 1.4 GB.
+TEST(AssText, LinesOfHugeLettersAreLeftOutWhichIsSaidOnce) {
+  auto made = AssText::create(true);
+  if (!made) GTEST_SKIP() << made.error().message;
+  AssText& text = *made;
+  text.begin(kHead);
+  testing::internal::CaptureStderr();
+  for (int i = 0; i < 3; ++i)
+    text.add("0,0,Default,,0,0,0,,{\\pos(9000,500)\\fs12000}Hello", Duration(0), std::chrono::seconds(9));
+  text.add(kCorner, Duration(0), std::chrono::seconds(9));
+  std::vector<TextPicture> pictures;
+  text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+  const std::string told = testing::internal::GetCapturedStderr();
+  ASSERT_EQ(pictures.size(), 1U);
+  EXPECT_TRUE(isInTheCorner(pictures));
+  EXPECT_NE(told.find("larger than the screen"), std::string::npos) << told;
+  EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
+}
+
 }  // namespace
 }  // namespace relievo::test

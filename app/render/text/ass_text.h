@@ -17,7 +17,8 @@ namespace relievo {
 class AssText {
  public:
   // NotFound if there is no font. `foreign`: the scripts come with films. Of those that take seconds, or show over a
-  // thousand lines at once, a part is left out, and lines of over 100 kB; that is logged once a script.
+  // thousand lines at once, a part is left out, and lines of over 100 kB or of letters that are larger than the screen;
+  // that is logged once a script.
   [[nodiscard]] static Result<AssText> create(bool foreign = false);
   AssText(AssText&&) noexcept;
   AssText& operator=(AssText&&) noexcept;
