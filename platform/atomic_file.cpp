@@ -109,9 +109,17 @@ bool isMountPoint(const std::string& path) noexcept {
   return (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
 }
 
-// Waits for a pipe's reader, but less than the file system may take: its mount is not to blame.
+// Devices that take what is written to them in its order, as /dev/stdout does. A disk would lose what is on it.
+const char* refusalOf(mode_t mode) noexcept {
+  if (S_ISDIR(mode)) return "is a folder; give the name of a file";
+  if (S_ISBLK(mode)) return "is a disk, which would lose its files; give the name of a file";
+  if (S_ISSOCK(mode)) return "is a socket; give the name of a file";
+  return nullptr;
+}
+
+// Waits for a pipe's reader no longer than a shell takes to start one beside this program.
 UniqueFd openDirectly(const std::string& path, bool pipe) {
-  constexpr std::chrono::milliseconds kPatience{9000}, kLook{20};
+  constexpr std::chrono::milliseconds kPatience{200}, kLook{20};
   const auto until = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
     UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CLOEXEC | (pipe ? O_NONBLOCK : 0)));
@@ -130,8 +138,8 @@ void makeNow(const std::string& path, Made& made) {
     return;
   }
   removeLitter(made.target);
-  if (exists && S_ISDIR(status.st_mode)) {
-    made.error = Error{ErrorCode::Io, EISDIR, "is a folder; give the name of a file"};
+  if (const char* const why = exists ? refusalOf(status.st_mode) : nullptr) {
+    made.error = Error{ErrorCode::Io, S_ISDIR(status.st_mode) ? EISDIR : 0, why};
     return;
   }
   if (exists && S_ISREG(status.st_mode) && isMountPoint(made.target)) {

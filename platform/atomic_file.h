@@ -21,9 +21,9 @@ enum class Existing : std::uint8_t {
 [[nodiscard]] std::string placeOf(const std::string& path);
 
 // Not thread-safe. No call waits longer than 10 s for the file system (file_system_answer.h): Timeout. A device or a
-// pipe is written to directly, since it cannot be replaced. Where the file system supports unnamed files (ext4, xfs,
-// btrfs, tmpfs, ..), nothing is left behind however the program ends; elsewhere a killed program leaves its temporary
-// file, which the next `create` for that path removes.
+// pipe is written to directly, since it cannot be replaced; a pipe that nobody reads, a disk and a socket are refused.
+// Where the file system supports unnamed files (ext4, xfs, btrfs, tmpfs, ..), nothing is left behind however the
+// program ends; elsewhere a killed program leaves its temporary file, which the next `create` for that path removes.
 class AtomicFile {
  public:
   AtomicFile() = default;

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <array>
@@ -227,6 +228,19 @@ TEST_F(AtomicFileTest, WritesIntoADeviceWithoutReplacingIt) {
   file->write("gone");
   EXPECT_TRUE(file->commit());
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(AtomicFileTest, RefusesAPipeThatNobodyReadsASocketAndADisk) {
+  const auto why = [&](const char* name) { return AtomicFile::create(at(name)).error().message; };
+  ASSERT_EQ(::mkfifo(at("pipe").c_str(), 0600), 0);
+  EXPECT_THAT(why("pipe"), testing::HasSubstr("no program reads this pipe"));
+  const UniqueFd reader(::open(at("pipe").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  EXPECT_TRUE(AtomicFile::create(at("pipe")));
+  ASSERT_EQ(::mknod(at("socket").c_str(), S_IFSOCK | 0600, 0), 0);
+  EXPECT_THAT(why("socket"), testing::HasSubstr("is a socket"));
+  constexpr unsigned kNoDriver = 240;  // for experiments
+  if (::mknod(at("disk").c_str(), S_IFBLK | 0600, makedev(kNoDriver, 0)) != 0) GTEST_SKIP() << "no right to make one";
+  EXPECT_THAT(why("disk"), testing::HasSubstr("is a disk"));
 }
 
 TEST_F(AtomicFileTest, TellsThatTheDiskIsFull) {
