@@ -27,6 +27,9 @@ constexpr Duration kServerPatience = 3s;
 constexpr Duration kLastPatience = 500ms;  // a program that ends while the library closes a card may crash
 constexpr Error kNotYet{ErrorCode::Timeout, 0, "the sound server does not answer; start it anew"};
 
+constexpr Error kNoThread{ErrorCode::Timeout, EAGAIN,
+                          "the limit on processes is reached; raise it (ulimit -u) or end some"};
+
 // Keeps alsa-lib from printing to stderr; the program prints its own messages.
 void printNothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*text*/,
                   ...) {}
@@ -77,7 +80,8 @@ class AlsaOutput final : public AudioOutput {
   };
 
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    if (!call_.ended()) return std::unexpected(kNotYet);
+    call_.tryAgain();
+    if (!call_.ended()) return std::unexpected(late());
     std::shared_ptr<Card> card = std::exchange(late_, nullptr);
     if (card == nullptr || card->wished != wished) {
       card = std::make_shared<Card>(wished, std::move(card));
@@ -85,7 +89,7 @@ class AlsaOutput final : public AudioOutput {
                                       std::exchange(opened_before_, true) ? patience_.call : patience_.open);
       if (!opened) {
         late_ = std::move(card);
-        return std::unexpected(kNotYet);
+        return std::unexpected(late());
       }
     }
     if (card->refused < 0) return std::unexpected(openError(card->refused));
@@ -144,6 +148,9 @@ class AlsaOutput final : public AudioOutput {
     card_ = nullptr;
   }
 
+  // Why the call has not ended.
+  [[nodiscard]] const Error& late() const noexcept { return call_.begun() ? kNotYet : kNoThread; }
+
   void forget() {
     written_ = 0;
     untold_ = 0;
@@ -166,7 +173,7 @@ class AlsaOutput final : public AudioOutput {
     if (!call_.ended()) {
       if (clock_.now() - asked_ < kServerPatience) return false;
       call_.letGo(std::exchange(card_, nullptr));
-      return std::unexpected(Error{ErrorCode::Lost, 0, kNotYet.message});
+      return std::unexpected(Error{ErrorCode::Lost, 0, late().message});
     }
     if (auto taken = take(false); !taken) return std::unexpected(taken.error());
     if (!std::exchange(drops_, false)) return true;

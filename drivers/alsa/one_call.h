@@ -2,6 +2,7 @@
 // Calls of a library that may not return, one at a time, each on a helper thread.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <functional>
@@ -22,6 +23,7 @@ class OneCall {
   bool start(std::function<void()> act, Duration brief) {
     last_ = std::make_shared<Call>();
     threads_.leave([call = last_, act = std::move(act)]() mutable {
+      call->begun = true;
       act();
       act = nullptr;
       const std::scoped_lock lock(call->mutex);
@@ -35,6 +37,12 @@ class OneCall {
     if (last_ == nullptr) return true;
     std::unique_lock lock(last_->mutex);
     return last_->end.wait_for(lock, patience, [this] { return last_->ended; });
+  }
+  // False while no thread could be started for it.
+  [[nodiscard]] bool begun() const noexcept { return last_ == nullptr || last_->begun; }
+  // Begins it where that could not be done before.
+  void tryAgain() {
+    if (!begun()) threads_.leave([] {});
   }
   // On a helper thread: it may be closed there.
   void letGo(std::shared_ptr<void> what) {
@@ -51,6 +59,7 @@ class OneCall {
   struct Call {
     std::mutex mutex;
     std::condition_variable end;
+    std::atomic<bool> begun = false;
     bool ended = false;
   };
   std::shared_ptr<Call> last_;

@@ -10,6 +10,7 @@
 #include "drivers/sample/sample.h"
 #include "tests/contract/suite/audio_output.h"
 #include "tests/support/machine/fake_sound_card.h"
+#include "tests/support/machine/no_threads.h"
 
 namespace relievo {
 namespace {
@@ -141,6 +142,21 @@ TEST(AlsaOutput, ASoundServerThatDoesNotAnswerHoldsNobodyAndIsFoundAgain) {
     EXPECT_EQ(opened.error().code, ErrorCode::Timeout);
   }
   test::sound_server_stalls = false;
+  EXPECT_TRUE(opensAgain(*audio));
+}
+
+TEST(AlsaOutput, AMachineWithoutAnotherThreadIsNotTakenForASilentServer) {
+  ManualClock clock;
+  const auto [audio, unplug] = makeFakeCard(clock, SND_PCM_FORMAT_FLOAT, {.open = 1ms, .call = 1ms});
+  {
+    const test::NoThreads limit;
+    for (int tries = 0; tries < 2; ++tries) {
+      const auto opened = audio->open({});
+      ASSERT_FALSE(opened);
+      EXPECT_EQ(opened.error().code, ErrorCode::Timeout) << "it is tried again";
+      EXPECT_STREQ(opened.error().message, "the limit on processes is reached; raise it (ulimit -u) or end some");
+    }
+  }
   EXPECT_TRUE(opensAgain(*audio));
 }
 
