@@ -57,7 +57,7 @@ void FilmFeed::begin(State state) {
   queue_.clear();
   sound_.forget();
   words_.clear();
-  request_.tracks_due = false;
+  request_.tracks_due = request_.format_due = false;
   request_.target = MediaTime{};
   request_.leave_out = false;
   request_.until.reset();
@@ -154,6 +154,15 @@ void FilmFeed::chooseTracks(std::optional<std::size_t> sound, std::optional<std:
   request_.words = words;
   request_.tracks_due = true;
   words_.clear();
+  wake_.notify_all();
+}
+
+void FilmFeed::setSoundFormat(const AudioFormat& format) {
+  const std::scoped_lock lock(mutex_);
+  request_.options.sound = format;
+  request_.format_due = true;
+  sound_.forget();
+  sound_.may_come = hasSound();
   wake_.notify_all();
 }
 

@@ -84,6 +84,8 @@ class FilmFeed {
   [[nodiscard]] std::optional<Subtitle> takeSubtitle();
   // Chooses other tracks, by their places in FilmInfo. Seek afterwards, since what was read of them before is skipped.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  // From here on the sound is decoded to another format. What was read ahead is dropped.
+  void setSoundFormat(const AudioFormat& format);
   // Adds a subtitle file behind those of `info`, until the film is closed; choose it afterwards. From Reading on.
   void addSubtitles(FilmTrack file);
   // True if no more sound before `time` will come: it is queued, or the container stores it too far ahead to be read.
@@ -109,7 +111,8 @@ class FilmFeed {
  private:
   [[nodiscard]] bool hasWork() const;
   [[nodiscard]] bool tracksDue() const {
-    return request_.tracks_due && (state_ == State::Reading || state_ == State::Ended || state_ == State::Seeking);
+    return (request_.tracks_due || request_.format_due) &&
+           (state_ == State::Reading || state_ == State::Ended || state_ == State::Seeking);
   }
   [[nodiscard]] bool wantsPair() const { return state_ == State::Reading && queue_.size() < capacity_; }
   [[nodiscard]] bool wantsSound() const;
@@ -144,7 +147,7 @@ class FilmFeed {
     SourceOptions options;
     MediaTime target;
     Duration key_step{0};
-    bool tracks_due = false;
+    bool tracks_due = false, format_due = false;
     std::optional<std::size_t> sound, words;
     bool leave_out = false;
     std::optional<MediaTime> until;  // once

@@ -29,10 +29,12 @@ bool FilmFeed::work() {
   counts_.at_work = counts_.film;
   interrupted_ = false;
   if (tracksDue()) {
-    request_.tracks_due = false;
+    const bool chooses = std::exchange(request_.tracks_due, false);
+    const auto format = std::exchange(request_.format_due, false) ? request_.options.sound : std::nullopt;
     const auto sound = request_.sound, words = request_.words;
     lock.unlock();
-    workChoose(sound, words);
+    if (format) reader_.setSoundFormat(*format);
+    if (chooses) workChoose(sound, words);
   } else if (task == State::Opening) {
     const SourceOptions options = request_.options;
     lock.unlock();
@@ -93,7 +95,8 @@ void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::s
   reader_.chooseTracks(sound, is_added ? std::nullopt : words);
   Result<std::deque<Subtitle>> read = readWords();
   const auto tracks = info().subtitles;
-  if (is_added && *words < tracks.size()) read = readSubtitleFile(tracks[*words].path, backends_);
+  if (is_added && *words < tracks.size())
+    read = readSubtitleFile(tracks[*words].path, backends_);
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
   auto subtitles = std::move(info_.subtitles);
@@ -179,7 +182,7 @@ bool FilmFeed::workSound(bool may_read, std::uint64_t generation) {
   if (counts_.at_work == counts_.film) takeWords(std::move(words));
   if (generation != counts_.generation) return true;
   sound_.may_come = more;
-  if (!chunk) return true;
+  if (!chunk || request_.format_due) return true;
   const AudioFormat& format = *request_.options.sound;  // always set here: without it no sound is decoded
   const MediaTime end = chunk->pts + SoundQueue::lengthOf(*chunk, format);
   if (end > request_.target) sound_.add(std::move(*chunk), format);  // else it lies before a seek's target

@@ -88,6 +88,11 @@ void PairReader::chooseTracks(std::optional<std::size_t> sound, std::optional<st
   if (std::exchange(film.info.words, words) != words) impl_->words.openWords();
 }
 
+void PairReader::setSoundFormat(const AudioFormat& format) {
+  impl_->film.options.sound = format;
+  if (impl_->film.sources.color()) impl_->words.openSound();
+}
+
 bool PairReader::readAhead() {
   return impl_->film.sources.color() && impl_->film.sources.color()->readAhead();
 }

@@ -161,6 +161,8 @@ class PairReader {
   // Chooses other tracks from now on, by their places in FilmInfo; nullopt for no subtitles. Packets of them that were
   // read before are skipped, until a seek. FilmInfo::sound_refused says if the sound cannot be decoded.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  // Decodes the sound that is read from here on to another format.
+  void setSoundFormat(const AudioFormat& format);
   // Reads one more packet, for containers that store sound later than its pictures; false when that cannot help.
   [[nodiscard]] bool readAhead();
   // For a machine that cannot decode all pictures in time. `unreferenced`: leaves out those colour pictures that no

@@ -32,6 +32,7 @@ constexpr std::size_t kBlockFrames = 4096;
 void Sound::open() {
   if (output_ == nullptr) return;
   const auto opened = output_->open({});
+  known_ = opened.has_value();
   take(opened.value_or(AudioFormat{}));
 }
 
@@ -78,7 +79,7 @@ void Sound::follow(bool plays, MediaClock& clock, FilmFeed& feed) {
   if (!plays || !position) stop();
   if (run_ && !listen(clock, feed, now)) stop();
   sounds_ = sounds_ || !window_->empty();
-  if (plays && position && !window_->empty() && ready(now)) {
+  if (plays && position && !window_->empty() && ready(feed, now)) {
     if (!run_) start(*position);
     fill();
   }
@@ -184,12 +185,18 @@ void Sound::stop() noexcept {
 }
 
 // True when there is an output to write to.
-bool Sound::ready(MonotonicTime now) {
+bool Sound::ready(FilmFeed& feed, MonotonicTime now) {
   if (output_->state() == AudioOutput::State::Open) return true;
   if (gave_up_ || other_ || now < next_try_) return false;
   next_try_ = now + kRetryPeriod;
   output_->close();
   const auto opened = output_->open(*format_);
+  if (opened && !std::exchange(known_, true) && *opened != *format_) {
+    take(*opened);
+    feed.setSoundFormat(*opened);
+    late_since_.reset();
+    return false;  // its samples come next
+  }
   if (opened && *opened == *format_) {
     late_since_.reset();
     if (std::exchange(lost_, false)) news_ = News{"sound output back", "it is heard again"};

@@ -37,7 +37,8 @@ struct SoundSummary {
 // refresh. The sound is delayed by the pictures' mean delay.
 //
 // Use on the owner's thread; the output, if there is one, is borrowed. No call waits, except for opening the output. An
-// output that is refused or lost is tried again every few seconds; meanwhile the film follows the system's clock.
+// output that is refused or lost is tried again every few seconds; meanwhile the film follows the system's clock. One
+// that answers for the first time while a film plays gets that film's sound in its own format.
 class Sound {
  public:
   static constexpr Duration kNear = std::chrono::milliseconds(8);  // good enough after a start; steering does the rest
@@ -81,7 +82,7 @@ class Sound {
 
  private:
   void take(const AudioFormat& format);
-  [[nodiscard]] bool ready(MonotonicTime now);
+  [[nodiscard]] bool ready(FilmFeed& feed, MonotonicTime now);
   void collect(MediaTime position, FilmFeed& feed);
   void start(MediaTime position);
   void fill();
@@ -117,6 +118,7 @@ class Sound {
   int restarts_ = 0;           // without having settled in between
   MonotonicTime next_try_;
   std::optional<MonotonicTime> late_since_;  // a sound server has not answered since
+  bool known_ = false;                       // the output has told its format
   std::optional<AudioFormat> other_;         // that the output has had since it was opened again
   bool gave_up_ = false, lost_ = false, told_ = false;
   bool sounds_ = false;  // there has been sound to play

@@ -107,28 +107,44 @@ TEST_F(PlayerSound, OfACardThatGoesAwayTheFilmGoesOnAndItIsTakenUpAgain) {
   }
 }
 
-// Is exchanged for one of another rate when it is opened again.
-class ExchangedCard final : public AudioOutput {
+// Hands everything on to a card, which the test chooses when it is opened.
+class HandsOn : public AudioOutput {
  public:
-  ExchangedCard(Clock& clock, std::shared_ptr<MockAudioBench> ear) : clock_(clock), ear_(std::move(ear)) {}
-  [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "exchanged"}; }
+  HandsOn(Clock& clock, std::shared_ptr<MockAudioBench> ear) : clock_(clock), ear_(std::move(ear)) {}
+  [[nodiscard]] Capabilities capabilities() const noexcept override { return {.name = "hands on"}; }
 
- private:
-  Result<AudioFormat> openOutput(const AudioFormat& wished) override {
+ protected:
+  Result<AudioFormat> openCard(int rate_hz, const AudioFormat& wished) {
     card_.reset();  // before the next one is at the ear
-    card_ = makeMockAudio({.format = AudioFormat{.rate_hz = opens_++ == 0 ? 48'000 : 44'100}}, clock_, ear_);
+    card_ = makeMockAudio({.format = AudioFormat{.rate_hz = rate_hz}}, clock_, ear_);
     return card_->open(wished);
   }
+
+  Clock& clock_;
+
+ private:
   Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
     return card_->write({samples, frames * static_cast<std::size_t>(card_->format().channels)});
   }
   Result<std::optional<AudioPosition>> samplePosition() override { return card_->position(); }
   Result<void> dropFrames() override { return card_->flush(); }
-  void closeOutput() noexcept override { card_->close(); }
+  void closeOutput() noexcept override {
+    if (card_) card_->close();
+  }
 
-  Clock& clock_;
   std::shared_ptr<MockAudioBench> ear_;
   std::unique_ptr<AudioOutput> card_;
+};
+
+// Is exchanged for one of another rate when it is opened again.
+class ExchangedCard final : public HandsOn {
+ public:
+  using HandsOn::HandsOn;
+
+ private:
+  Result<AudioFormat> openOutput(const AudioFormat& wished) override {
+    return openCard(opens_++ == 0 ? 48'000 : 44'100, wished);
+  }
   int opens_ = 0;
 };
 
@@ -162,27 +178,18 @@ TEST_F(PlayerSound, OfACardThatIsRefusedTheFilmPlaysWithoutAndSaysSoOnce) {
 }
 
 // A sound server that answers from a time on.
-class LateServer final : public AudioOutput {
+class LateServer final : public HandsOn {
  public:
-  LateServer(Clock& clock, std::unique_ptr<AudioOutput> card, Duration answers)
-      : clock_(clock), card_(std::move(card)), answers_(answers) {}
-  [[nodiscard]] Capabilities capabilities() const noexcept override { return card_->capabilities(); }
+  LateServer(Clock& clock, std::shared_ptr<MockAudioBench> ear, Duration wait, int rate_hz = 48'000)
+      : HandsOn(clock, std::move(ear)), answers_(clock.now() + wait), rate_hz_(rate_hz) {}
 
  private:
   Result<AudioFormat> openOutput(const AudioFormat& wished) override {
-    if (clock_.now() < MonotonicTime(answers_)) return fail(ErrorCode::Timeout, "the server does not answer");
-    return card_->open(wished);
+    if (clock_.now() < answers_) return fail(ErrorCode::Timeout, "the server does not answer");
+    return openCard(rate_hz_, wished);
   }
-  Result<std::size_t> writeFrames(const float* samples, std::size_t frames) override {
-    return card_->write({samples, frames * static_cast<std::size_t>(card_->format().channels)});
-  }
-  Result<std::optional<AudioPosition>> samplePosition() override { return card_->position(); }
-  Result<void> dropFrames() override { return card_->flush(); }
-  void closeOutput() noexcept override { card_->close(); }
-
-  Clock& clock_;
-  std::unique_ptr<AudioOutput> card_;
-  Duration answers_;
+  MonotonicTime answers_;
+  int rate_hz_;
 };
 
 TEST_F(PlayerSound, OfAServerThatAnswersLateIsHeardAsSoonAsItDoes) {
@@ -191,8 +198,7 @@ TEST_F(PlayerSound, OfAServerThatAnswersLateIsHeardAsSoonAsItDoes) {
     moments_.clear();
     film(500);
     bench_.make_output = [this, wait = answers](Clock& clock) {
-      return std::make_unique<LateServer>(clock, makeMockAudio({}, clock, bench_.ear),
-                                          clock.now().time_since_epoch() + wait);
+      return std::make_unique<LateServer>(clock, bench_.ear, wait);
     };
     playsWell();
     EXPECT_EQ(bench_.faults("sound: the server does not answer"), faults);
@@ -201,6 +207,26 @@ TEST_F(PlayerSound, OfAServerThatAnswersLateIsHeardAsSoonAsItDoes) {
     EXPECT_FALSE(moments_[25].heard_s);
     EXPECT_EQ(moments_[50].heard_s.has_value(), faults == 0) << "2 s";
     EXPECT_TRUE(moments_[225].heard_s) << "9 s";
+  }
+}
+
+// Its rate is not known before: the film is decoded for it from there on.
+TEST_F(PlayerSound, OfAServerThatAnswersLateWithAnotherRateIsHeardInTheFirstFilm) {
+  for (const Duration wait : {700ms, 1500ms, 3700ms}) {
+    SCOPED_TRACE(toSeconds(wait));
+    moments_.clear();
+    film(500);
+    bench_.make_output = [this, wait](Clock& clock) {
+      return std::make_unique<LateServer>(clock, bench_.ear, wait, 44'100);
+    };
+    const auto played = bench_.run();
+    ASSERT_TRUE(played) << played.error().error.message;
+    EXPECT_EQ(bench_.faults("another rate"), 0u);
+    EXPECT_EQ(bench_.report.sound.rate_hz, 44'100);
+    ASSERT_GE(moments_.size(), 500u);
+    EXPECT_FALSE(moments_[15].heard_s);
+    const double picture_s = 499 * 0.04 - (moments_.back().time_s - moments_[300].time_s);
+    EXPECT_NEAR(moments_[300].heard_s.value_or(-1), picture_s, 0.02);
   }
 }
 

@@ -104,5 +104,20 @@ TEST_F(FilmFeedSound, IsLeftOutForWhoDoesNotWantIt) {
   EXPECT_TRUE(feed_->hasSoundUntil(mediaTime(1)));
 }
 
+// A sound output that has told its own while the film plays.
+TEST_F(FilmFeedSound, IsDecodedToAnotherFormatFromThereOn) {
+  FilmFeed& feed = openWithSound(200);
+  workAll();
+  ASSERT_FALSE(takeSound().empty());
+  workAll();
+  feed.setSoundFormat({.rate_hz = 24'000, .channels = 1});
+  EXPECT_FALSE(feed.takeSound()) << "what was read ahead is dropped";
+  EXPECT_FALSE(feed.hasSoundUntil(mediaTime(1)));
+  workAll();
+  const auto chunk = feed.takeSound();
+  ASSERT_TRUE(chunk);
+  EXPECT_EQ(chunk->samples.size(), 480u) << "20 ms";
+}
+
 }  // namespace
 }  // namespace relievo::test
