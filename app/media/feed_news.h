@@ -2,6 +2,7 @@
 // Events of the sources and decoders of a film that is read ahead, kept until the player asks for them. Pure.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -29,6 +30,7 @@ class FeedNews {
     const char* why = "";   // cause of a loss, a restart or a refusal
     const char* done = "";  // what a restart did
     MonotonicTime time;
+    std::size_t track = 0;  // the place of refused subtitles
   };
 
   void colorLost(const Error& error, MonotonicTime now) { items_.push_back({Kind::ColorLost, error.message, "", now}); }
@@ -44,7 +46,9 @@ class FeedNews {
   // The sound that was chosen cannot be decoded.
   void soundRefused(const char* why, MonotonicTime now) { items_.push_back({Kind::SoundRefused, why, "", now}); }
   // Likewise, the subtitles.
-  void wordsRefused(const char* why, MonotonicTime now) { items_.push_back({Kind::WordsRefused, why, "", now}); }
+  void wordsRefused(std::size_t track, const char* why, MonotonicTime now) {
+    items_.push_back({Kind::WordsRefused, why, "", now, track});
+  }
   // The next event, in order, each once.
   [[nodiscard]] std::optional<Item> take() {
     if (items_.empty()) return std::nullopt;

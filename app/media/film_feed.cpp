@@ -153,7 +153,7 @@ void FilmFeed::chooseTracks(std::optional<std::size_t> sound, std::optional<std:
   request_.sound = sound;
   request_.words = words;
   request_.tracks_due = true;
-  words_.clear();
+  if (changesWords()) words_.clear();
   wake_.notify_all();
 }
 

@@ -83,6 +83,7 @@ class FilmFeed {
   // The next subtitle that has been read; nullopt if there is none. After a seek some subtitles may be repeated.
   [[nodiscard]] std::optional<Subtitle> takeSubtitle();
   // Chooses other tracks, by their places in FilmInfo. Seek afterwards, since what was read of them before is skipped.
+  // Subtitles that are refused are not chosen any more: FilmInfo::words.
   void chooseTracks(std::optional<std::size_t> sound, std::optional<std::size_t> words);
   // From here on the sound is decoded to another format. What was read ahead is dropped.
   void setSoundFormat(const AudioFormat& format);
@@ -123,6 +124,7 @@ class FilmFeed {
   void workRead(std::uint64_t generation);
   void workReopen();
   void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  [[nodiscard]] bool changesWords() const { return request_.tracks_due && request_.words != info_.words; }
   void takeWords(std::deque<Subtitle> words);
   [[nodiscard]] std::deque<Subtitle> readWords();
   [[nodiscard]] bool loses(const Error& error);

@@ -89,25 +89,26 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
   state_ = State::Reading;
 }
 
-// The reader does not know the subtitle files that were added.
+// The reader does not know the subtitle files that were added. Such a file is read once, when it is chosen.
 void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
   const bool is_added = words && *words >= reader_.info().subtitles.size();
   reader_.chooseTracks(sound, is_added ? std::nullopt : words);
   Result<std::deque<Subtitle>> read = readWords();
-  const auto tracks = info().subtitles;
-  if (is_added && *words < tracks.size())
+  const auto before = info();
+  const auto& tracks = before.subtitles;
+  if (is_added && words != before.words && *words < tracks.size())
     read = readSubtitleFile(tracks[*words].path, backends_);
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
   auto subtitles = std::move(info_.subtitles);
   info_ = reader_.info();
   info_.subtitles = std::move(subtitles);
-  info_.words = words;
+  info_.words = read ? words : std::nullopt;
   sound_.forget();
   sound_.may_come = hasSound();
   if (info_.sound_refused != nullptr) news_.soundRefused(info_.sound_refused, now());
   if (read) takeWords(std::move(*read));
-  else news_.wordsRefused(read.error().message, now());
+  else news_.wordsRefused(*words, read.error().message, now());
 }
 
 std::deque<Subtitle> FilmFeed::readWords() {
@@ -118,7 +119,7 @@ std::deque<Subtitle> FilmFeed::readWords() {
 
 // Subtitles of a track that has been deselected meanwhile are dropped.
 void FilmFeed::takeWords(std::deque<Subtitle> words) {
-  if (request_.tracks_due) return;
+  if (changesWords()) return;
   for (Subtitle& subtitle : words) words_.push_back(std::move(subtitle));
 }
 

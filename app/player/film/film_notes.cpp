@@ -44,8 +44,8 @@ void FilmNotes::refusedSound(const FilmInfo& info, const char* why) {
   journal_.note("sound" + track + ": " + why, "the film plays without");
 }
 
-void FilmNotes::refusedWords(const FilmInfo& info, const char* why) {
-  journal_.note("subtitles " + describeTrack(info.subtitles, info.words) + ": " + why, "the film plays without");
+void FilmNotes::refusedWords(const FilmInfo& info, std::size_t track, const char* why) {
+  journal_.note("subtitles " + describeTrack(info.subtitles, track) + ": " + why, "the film plays without");
 }
 
 void FilmNotes::happened(const FilmFeed::News& news, const FilmInfo& info) {
@@ -69,7 +69,7 @@ void FilmNotes::happened(const FilmFeed::News& news, const FilmInfo& info) {
     case Kind::SoundRefused:
       return refusedSound(info, news.why);
     case Kind::WordsRefused:
-      return refusedWords(info, news.why);
+      return refusedWords(info, news.track, news.why);
   }
 }
 

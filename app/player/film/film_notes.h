@@ -37,7 +37,7 @@ class FilmNotes {
 
  private:
   void refusedSound(const FilmInfo& info, const char* why);
-  void refusedWords(const FilmInfo& info, const char* why);
+  void refusedWords(const FilmInfo& info, std::size_t track, const char* why);
 
   Journal& journal_;
   std::string url_, depth_url_;

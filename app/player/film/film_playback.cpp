@@ -288,6 +288,10 @@ void FilmPlayback::noteNews() {
   while (const auto news = feed_.takeNews()) {
     if (news->kind == FilmFeed::News::Kind::ColorBack) jumped_ = true;  // in case the picture had stopped meanwhile
     notes_.happened(*news, info_);
+    if (news->kind == FilmFeed::News::Kind::WordsRefused && info_.words == news->track) {
+      info_.words.reset();
+      journal_.filmIs(info_);
+    }
   }
 }
 
