@@ -182,7 +182,8 @@ class Player {
   [[nodiscard]] bool hearMouseInList(const SurfaceMouse& mouse, bool clicks);
 
   // player_list.cpp: from film to film
-  void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now);
+  // `words`: subtitle files for the first of them.
+  void openList(const std::vector<PlaylistEntry>& films, MonotonicTime now, std::vector<std::string> words = {});
   void followDrops(MonotonicTime now);
   void openFilm(std::size_t film, Programme::Way way, MonotonicTime now);
   void leaveFilm(MonotonicTime now);
@@ -209,6 +210,7 @@ class Player {
   MouseWishes mouse_;
   Statistics statistics_;
   bool words_shown_ = true;
+  std::vector<std::string> words_to_add_;  // subtitle files, once the film is open
   std::string doubt_;  // of a film's depth, that was shown last
   LoopAB loop_ab_;
 

@@ -105,6 +105,7 @@ void Player::followOpening(MonotonicTime now) {
   const bool warned = screen_.text().showsWarning(now);  // of the film before, which could not be played
   journal_.filmIs(film_.opened());
   beginWords();
+  for (const std::string& path : std::exchange(words_to_add_, {})) addWords(path, now);
   if (!warned) tellDoubt(now);
   const Duration length = film_.info().duration;
   if (const auto start = std::exchange(config_.start, std::nullopt)) {

@@ -22,22 +22,26 @@ bool isSubtitles(const std::string& url) {
 
 }  // namespace
 
-void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now) {
+void Player::openList(const std::vector<PlaylistEntry>& films, MonotonicTime now, std::vector<std::string> words) {
   if (!nextState(state_, PlayerEvent::Open)) return;
   leaveFilm(now);
+  words_to_add_ = std::move(words);
   programme_.begin(films);
   openFilm(0, Programme::Way::Forward, now);
 }
 
-// Films dropped on the window are played instead of the present one. Subtitles are shown with it.
+// Films dropped on the window are played instead of the present one. Subtitles are shown with the film that is dropped
+// with them, else with the present one.
 void Player::followDrops(MonotonicTime now) {
   std::vector<PlaylistEntry> films;
   std::vector<std::string> words;
-  for (std::string& url : screen_.takeDropped()) {
-    if (film_.isOpen() && isSubtitles(url)) words.push_back(std::move(url));
+  std::vector<std::string> dropped = screen_.takeDropped();
+  const bool film = film_.isOpen() || !std::ranges::all_of(dropped, isSubtitles);
+  for (std::string& url : dropped) {
+    if (film && isSubtitles(url)) words.push_back(std::move(url));
     else films.push_back({.url = std::move(url), .depth_url = "", .title = ""});
   }
-  if (!films.empty()) return openList(films, now);
+  if (!films.empty()) return openList(films, now, std::move(words));
   for (const std::string& path : words) addWords(path, now);
 }
 
@@ -58,7 +62,10 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
 // Sets the force to zero first; then closes the film and forgets its state.
 void Player::leaveFilm(MonotonicTime now) {
   if (!film_.isOpen()) return;
-  if (film_.opening() != FilmPlayback::Opening::IsList) config_.start.reset();  // a list's is that of its film
+  if (film_.opening() != FilmPlayback::Opening::IsList) {  // a list's are those of its film
+    config_.start.reset();
+    words_to_add_.clear();
+  }
   touch_.rest();
   programme_.keepAtOnce(film_.placeToKeep(now), now);
   programme_.left(film_.begun());

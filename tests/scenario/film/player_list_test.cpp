@@ -157,6 +157,18 @@ TEST_F(PlayerLists, WhatIsDroppedOnTheWindowIsPlayedInstead) {
   EXPECT_NEAR(static_cast<double>(bench_.report.frames_shown), 25 + 25 + 25, 2);
 }
 
+TEST_F(PlayerLists, SubtitlesDroppedWithAFilmAreShownWithIt) {
+  bench_.sources = {{"film", PlayerBench::film(100)}, {"b", PlayerBench::film(25)}, {"b.srt", {}}};
+  std::vector<std::string> drop{"b.srt", "b"};
+  bench_.display.dropped = [&] {
+    const bool now = bench_.clock.now().time_since_epoch() > std::chrono::seconds(1);
+    return now ? std::exchange(drop, {}) : std::vector<std::string>();
+  };
+  playsWell();
+  EXPECT_THAT(bench_.report.films, testing::ElementsAre("film", "b")) << "they are not played as a film";
+  EXPECT_EQ(bench_.faults("subtitles 1 of 1, b.srt: "), 1u) << "nothing here decodes them";
+}
+
 TEST_F(PlayerLists, SeveralSourcesArePlayedOneAfterTheOther) {
   bench_.sources = {{"film", PlayerBench::film(25)}, {"b", PlayerBench::film(25)}, {"c", PlayerBench::film(25)}};
   bench_.config.more = {"b", "c"};
