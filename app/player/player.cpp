@@ -140,6 +140,7 @@ void Player::step(MonotonicTime now) {
   followDevice();
   film_.noteNews();
   followReader(now);
+  tellDoubts(now);
   followClock(now);
   followLoopAB(now);
   while (auto subtitle = film_.takeSubtitle()) screen_.subtitles().add(std::move(*subtitle));

@@ -16,6 +16,7 @@
 #include "app/player/control/mouse_wishes.h"
 #include "app/player/control/wishes.h"
 #include "app/player/file_writer.h"
+#include "app/player/film/film_doubts.h"
 #include "app/player/film/film_playback.h"
 #include "app/player/film/programme.h"
 #include "app/player/film/seek_times.h"
@@ -149,7 +150,7 @@ class Player {
   void begin(MonotonicTime now);
   void announce(const DisplayVolume& volume);
   [[nodiscard]] std::string firstHint() const;
-  void tellDoubt(MonotonicTime now);
+  void tellDoubts(MonotonicTime now);
   void followClock(MonotonicTime now);
   void followDevice();
   void showPicture(MonotonicTime now);
@@ -211,7 +212,7 @@ class Player {
   Statistics statistics_;
   bool words_shown_ = true;
   std::vector<std::string> words_to_add_;  // subtitle files, once the film is open
-  std::string doubt_;  // of a film's depth, that was shown last
+  FilmDoubts doubts_;
   LoopAB loop_ab_;
 
   PlayerState state_ = PlayerState::Boot;

@@ -102,11 +102,10 @@ void Player::followOpening(MonotonicTime now) {
   if (std::exchange(config_.unseen, false)) {
     log(LogLevel::Info, "play", "there is no desktop and no screen here: it plays off screen; see --display");
   }
-  const bool warned = screen_.text().showsWarning(now);  // of the film before, which could not be played
   journal_.filmIs(film_.opened());
   beginWords();
   for (const std::string& path : std::exchange(words_to_add_, {})) addWords(path, now);
-  if (!warned) tellDoubt(now);
+  doubts_.begin(film_.info().reading);
   const Duration length = film_.info().duration;
   if (const auto start = std::exchange(config_.start, std::nullopt)) {
     if (length <= Duration(0) || *start < MediaTime(length)) return seek(*start, PlayerEvent::Seek, false, now);
@@ -119,12 +118,10 @@ void Player::followOpening(MonotonicTime now) {
   seek(*left, PlayerEvent::Seek, false, now);
 }
 
-// The terminal has them all, of every film.
-void Player::tellDoubt(MonotonicTime now) {
-  const auto& doubts = film_.info().reading.doubts;
-  if (doubts.empty() || doubts.front() == doubt_) return;
-  doubt_ = doubts.front();
-  screen_.text().tell(doubt_, now);
+// One after the other, and after a warning that is shown: of the film before, which could not be played.
+void Player::tellDoubts(MonotonicTime now) {
+  if (screen_.text().showsWarning(now)) return;
+  if (const auto doubt = doubts_.next()) screen_.text().tell(*doubt, now);
 }
 
 void Player::followProgress(FilmPlayback::Progress progress, MonotonicTime now) {

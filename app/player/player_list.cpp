@@ -71,7 +71,7 @@ void Player::leaveFilm(MonotonicTime now) {
   programme_.left(film_.begun());
   seeks_.forget();
   screen_.subtitles().forget();
-  screen_.text().forgetWarning(doubt_);  // of this film
+  for (const std::string& doubt : doubts_.end()) screen_.text().forgetWarning(doubt);
   film_.close(now);
 }
 

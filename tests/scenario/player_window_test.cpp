@@ -202,6 +202,33 @@ TEST_F(PlayerWindow, WhyTheDepthLooksWrongIsShownOverTheFilm) {
   EXPECT_THAT(textOf("said.txt"), testing::HasSubstr("of the depth is one code"));
 }
 
+// The next film is an ordinary one: nobody has said which end of its depth is near.
+TEST_F(PlayerWindow, ADoubtGoesWithItsFilm) {
+  const auto even = [](int c, int, int, int) { return c == 0 ? 180U : 128U; };
+  const auto level = [](int, int, int, int) { return 128U; };
+  const auto floor = [](int, int, int r, int) { return 60U + 2U * static_cast<unsigned>(r); };
+  makeClip(folder_ / "film.mkv", {{.pix_fmt = "yuv420p", .frames = 600, .sample = even},
+                                  {.pix_fmt = "gray", .frames = 600, .sample = level}});
+  makeClip(folder_ / "next.mkv", {{.pix_fmt = "yuv420p", .frames = 600, .sample = even},
+                                  {.pix_fmt = "gray", .frames = 600, .sample = floor}});
+  const auto player = play({folder_ / "next.mkv", "--haptic", "none", "--control", folder_ / "control"});
+  ControlClient control(folder_ / "control");
+  const auto warns = [&] {
+    const auto pixels = screen_->pixels(place_.x, place_.y + 30, kWidth, 50);
+    return std::ranges::any_of(pixels, [](const auto& pixel) { return pixel[0] > pixel[2] + 60; });
+  };
+  EXPECT_TRUE(until(warns));
+  screen_->tap("n");
+  EXPECT_NE(screen_->find("next.mkv - relievo"), 0u);
+  EXPECT_TRUE(until([&] { return shows() && !warns(); }));
+  EXPECT_LT(control.ask("status")["position_s"], 6) << "a warning stands for 8 s of the film";
+  screen_->tap("q");
+  EXPECT_EQ(player->wait(), 0) << textOf("said.txt");
+  const std::string said = textOf("said.txt");
+  EXPECT_NE(said.find("of the depth is one code"), std::string::npos) << said;
+  EXPECT_NE(said.find("nothing says which end of the depth is near"), std::string::npos) << said;
+}
+
 TEST_F(PlayerWindow, SubtitlesThatAreDroppedAreShownWithTheFilm) {
   std::ofstream(folder_ / "words.SRT") << "1\n00:00:00,000 --> 00:00:09,000\nHELLO HELLO\n";
   std::ofstream(folder_ / "broken.srt") << "no words";

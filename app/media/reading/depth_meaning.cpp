@@ -213,23 +213,30 @@ Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& lo
   return choose(clues, look, layers);
 }
 
+struct NearEndDoubt {
+  std::string line;    // empty: none
+  bool usual = false;  // the view does not speak against the end that is taken
+};
+
 // A doubt where the near end is a guess. Where it is only likely, and no known kind, the offer becomes a doubt if the
-// view is nearer above; empty: none.
-std::string doubtNearEnd(const CalibrationChoice& choice, bool is_known, const Frame& look, DepthReading& read) {
+// view is nearer above.
+NearEndDoubt doubtNearEnd(const CalibrationChoice& choice, bool is_known, const Frame& look, DepthReading& read) {
   const DepthCalibration& calibration = choice.calibration;
   const CalibrationOrigin by = nearEndOf(choice).origin;
-  if (certaintyOf(by) == Certainty::Said || isLevel(look, calibration)) return "";
+  if (certaintyOf(by) == Certainty::Said || isLevel(look, calibration)) return {};
   const double nearer = nearerBelow(look, calibration, read);
   const bool by_view = isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture;
-  if (by_view || certaintyOf(by) == Certainty::Assumed) return nearEndLine(calibration, nearer, read.black);
   const bool upside_down = nearer < -kClearlyNearer;
-  if (!read.unsure && (!upside_down || is_known)) return "";
+  if (by_view || certaintyOf(by) == Certainty::Assumed) {
+    return {nearEndLine(calibration, nearer, read.black), !upside_down};
+  }
+  if (!read.unsure && (!upside_down || is_known)) return {};
   if (read.offer.empty() && !calibration.unit_mm) {
     read.offer = print("if the other end is near: --calibration polarity=%s", otherEndOf(calibration));
   }
-  if (read.offer.empty()) return "";
+  if (read.offer.empty()) return {};
   const char* const view = upside_down ? "read so, the view is nearer above than below, as few are: " : "";
-  return view + std::exchange(read.offer, "");
+  return {view + std::exchange(read.offer, ""), false};
 }
 
 }  // namespace
@@ -272,7 +279,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   layers.pictures.merge(read.settings);
   auto choice = chooseNearEnd(clues, look, layers, read);
   if (!choice) return std::unexpected(choice.error());
-  std::string doubt = doubtNearEnd(*choice, kind != nullptr || read.kind != nullptr, look, read);
+  NearEndDoubt doubt = doubtNearEnd(*choice, kind != nullptr || read.kind != nullptr, look, read);
 
   DepthMeaning meaning{.calibration = std::move(*choice), .reading = {}};
   FilmReading& reading = meaning.reading;
@@ -292,7 +299,8 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
-  if (!doubt.empty()) reading.doubts.push_back(std::move(doubt));
+  if (!doubt.line.empty()) reading.doubts.push_back(std::move(doubt.line));
+  reading.near_end_is_usual = doubt.usual;
   return meaning;
 }
 

@@ -24,6 +24,7 @@ struct FilmReading {
   std::vector<std::string> why;     // what names, tags and pictures revealed; one line each
   std::vector<std::string> offers;  // other readings that are as likely, with the option to type; one line each
   std::vector<std::string> doubts;  // why the reading looks wrong, and the option to try; one line each
+  bool near_end_is_usual = false;   // the first doubt is that nobody has stated the near end; it is taken as in most
 };
 
 // Tags that keep a guess marked as a guess when an author writes them into a film: the keys of the calibration that

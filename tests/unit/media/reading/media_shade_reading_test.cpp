@@ -149,6 +149,17 @@ TEST(ShadeReading, HolesWithSoftEdgesStayHolesOfDistances) {
   EXPECT_EQ(sensorKind(resized, CodeCount(resized)), findKind("mm"));
 }
 
+// A view that is nearer above than below speaks against the end that is taken.
+TEST(ShadeReading, ANearEndThatNothingSpeaksAgainstIsTakenAsInMostFilms) {
+  const auto usual = [](auto code, const DepthClues& clues = {}) {
+    return meaningOf(code, ColorModel::Yuv, clues).reading.near_end_is_usual;
+  };
+  EXPECT_TRUE(usual([](int, int r) { return 30 + 2 * r; }));
+  EXPECT_TRUE(usual([](int c, int) { return 30 + c; })) << "neither";
+  EXPECT_FALSE(usual([](int, int r) { return 220 - 2 * r; }));
+  EXPECT_FALSE(usual([](int, int r) { return 220 - 2 * r; }, {.path = "a/clip_disparity.mp4"}));
+}
+
 TEST(ShadeReading, AFilmThatIsNamedDisparityIsNearWhereItIsBright) {
   const DepthMeaning named =
       meaningOf([](int, int r) { return 220 - 2 * r; }, ColorModel::Yuv, {.path = "a/clip_disparity.mp4"});
