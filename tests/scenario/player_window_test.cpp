@@ -176,6 +176,7 @@ TEST_F(PlayerWindow, WhatEndsAProgramThatADesktopStartsIsShownOnTheDesktop) {
     if (killed) {
       player.send(SIGTERM);
       EXPECT_EQ(player.wait(), -SIGTERM);
+      EXPECT_TRUE(until([&] { return !screen_->place(box); })) << "the message goes with its program";
       continue;
     }
     screen_->focus(box);

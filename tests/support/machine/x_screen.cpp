@@ -163,7 +163,10 @@ unsigned long XScreen::find(const std::string& title) const {
 
 std::optional<XScreen::Place> XScreen::place(unsigned long window) const {
   XWindowAttributes attributes{};
-  if (XGetWindowAttributes(connection_, window, &attributes) == 0) return std::nullopt;
+  const auto before = XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });  // of a window that is gone
+  const bool there = XGetWindowAttributes(connection_, window, &attributes) != 0;
+  XSetErrorHandler(before);
+  if (!there) return std::nullopt;
   return Place{attributes.x, attributes.y, attributes.width, attributes.height};
 }
 
