@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace relievo::ffmpeg {
@@ -17,7 +18,8 @@ namespace {
 
 constexpr std::uint32_t kHeader = 0x1A45DFA3, kSegment = 0x18538067, kCluster = 0x1F43B675, kTags = 0x1254C367;
 constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekId = 0x53AB, kSeekPosition = 0x53AC;
-constexpr std::uint32_t kTracks = 0x1654AE6B, kAttachments = 0x1941A469, kChapters = 0x1043A770, kCues = 0x1C53BB6B;
+constexpr std::uint32_t kInfo = 0x1549A966, kTracks = 0x1654AE6B, kAttachments = 0x1941A469, kChapters = 0x1043A770,
+                        kCues = 0x1C53BB6B;
 constexpr std::string_view kSimpleTag = "\x67\xC8";
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 constexpr int kMostElements = 1000;                          // in all, that are looked at; of a list, too
@@ -75,11 +77,11 @@ class Lists {
     const auto segment = elementAt(file_, header->data + header->bytes);
     if (!segment || segment->id != kSegment) return nullptr;
     segment_ = segment->data;
-    for (auto element = elementAt(file_, segment_); element; element = next(*element)) note(*element);
+    for (auto element = elementFrom(segment_); element; element = next(*element)) note(*element);
     for (std::size_t i = 0; i < sought_.size(); ++i) {
       for (auto element = elementAt(file_, sought_[i]); element; element = next(*element)) {
         note(*element);
-        if (element->bytes != kUnknown) break;
+        if (element->bytes != kUnknown && !damage_) break;
       }
     }
     return exceeded_;
@@ -94,7 +96,25 @@ class Lists {
   // None at the first cluster.
   std::optional<Element> next(const Element& element) {
     if (exceeded_ != nullptr || element.id == kCluster) return std::nullopt;
-    return elementAt(file_, behind(element));
+    return elementFrom(std::exchange(damage_, std::nullopt).value_or(behind(element)));
+  }
+
+  // As FFmpeg goes on: behind what is no element, with the next list or cluster.
+  std::optional<Element> elementFrom(std::uint64_t place) const {
+    if (const auto element = elementAt(file_, place)) return element;
+    constexpr std::size_t kIdBytes = 4;
+    std::vector<std::uint8_t> piece(std::size_t{1} << 16);
+    for (std::size_t got = piece.size(); got == piece.size(); place += got - (kIdBytes - 1)) {
+      got = place > kFarthest ? 0 : file_(place, piece);
+      for (std::size_t i = 0; i + kIdBytes <= got; ++i) {
+        if (piece[i] >> 4 != 1) continue;  // not an id of four bytes
+        const auto id = static_cast<std::uint32_t>(number(std::span(piece).subspan(i, kIdBytes), true));
+        if (id == kCluster || std::ranges::find(kinds_, id, &Kind::id) != std::end(kinds_)) {
+          return elementAt(file_, place + i);
+        }
+      }
+    }
+    return std::nullopt;
   }
 
   void exceed(const char* why) noexcept {
@@ -131,7 +151,7 @@ class Lists {
     for (int items = 0; place < end; ++items) {
       if (items == kMostElements) return exceed(kind.why);
       const auto item = elementAt(file_, place);
-      if (!item) return;
+      if (!item) return void(damage_ = place);
       place = behind(*item);
     }
   }
@@ -187,14 +207,13 @@ class Lists {
   }
 
   const Readable& file_;
-  Kind kinds_[6] = {{kTags, kMiB, kTooLongTags},
-                    {kChapters, kMiB, kTooLongChapters},
-                    {kTracks, 4 * kMiB, kTooManyTracks, true},
-                    {kCues, 24 * kMiB, kTooManyCues},
-                    {kAttachments, 128 * kMiB, kTooManyAttachments, true},
+  Kind kinds_[7] = {{kTags, kMiB, kTooLongTags},         {kInfo, kMiB, kTooManyElements},
+                    {kChapters, kMiB, kTooLongChapters}, {kTracks, 4 * kMiB, kTooManyTracks, true},
+                    {kCues, 24 * kMiB, kTooManyCues},    {kAttachments, 128 * kMiB, kTooManyAttachments, true},
                     {kSeekHead, kMiB, kTooManyElements}};
   Kind loose_{0, 4 * kMiB, kTooManyElements};  // what is in elements without a size
   bool sizeless_ = false;                      // there was such an element
+  std::optional<std::uint64_t> damage_;        // the place in a list where it is not one
   std::uint64_t segment_ = 0;
   std::vector<std::uint64_t> sought_, measured_;
   int looked_at_ = 0, tags_ = 0;

@@ -33,8 +33,8 @@ inline constexpr const char* kTooManyCues =
     "two: ffmpeg -i FILE -map 0 -c copy -f segment -segment_time 1:00:00 film-%d.mkv";
 // A film has about ten.
 inline constexpr const char* kTooManyElements =
-    "it is a Matroska film with more than 1000 elements before its pictures, or more than 1 MiB of places of its "
-    "elements, the most that it may have; write it anew: ffmpeg -i FILE -map 0 -c copy film.mkv";
+    "it is a Matroska film with more than 1000 elements before its pictures, or 1 MiB of information or of places of "
+    "its elements, the most that it may have; write it anew: ffmpeg -i FILE -map 0 -c copy film.mkv";
 
 // Which of these holds, or null. Looks where FFmpeg looks: before the first cluster, and where seek heads point to.
 // Null for what is no Matroska, and for what cannot be read.

@@ -152,6 +152,16 @@ TEST_F(MatroskaFilm, NothingHidesInAnElementWithoutASize) {
       << "inside of another";
 }
 
+// FFmpeg goes on with the next list or cluster.
+TEST_F(MatroskaFilm, NothingHidesBehindDamage) {
+  const std::string garbage(100'000, '\0'), many = element(kAttachments, repeated(kAttachment, 3000));
+  EXPECT_TRUE(makeFfmpegSource()->open(with(garbage)));
+  EXPECT_EQ(openErrorOf(with(garbage + many)).code, ErrorCode::Unsupported);
+  EXPECT_EQ(openErrorOf(with(element(kAttachments, kAttachment + garbage + many))).code, ErrorCode::Unsupported);
+  const std::string long_info = element("\x15\x49\xA9\x66", std::string(1'100'000, '\0'));
+  EXPECT_EQ(openErrorOf(with(long_info)).code, ErrorCode::Unsupported) << "what is in it is not looked at";
+}
+
 // Some programs list all clusters.
 TEST_F(MatroskaFilm, ItsClustersMayBeListed) {
   std::string all;
