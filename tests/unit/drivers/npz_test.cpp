@@ -104,17 +104,19 @@ TEST_F(Npz, ASeekGivesThePicturesOfItsPlace) {
     SCOPED_TRACE(method);
     PairReader reader(kReal);
     ASSERT_TRUE(reader.open({.url = archive("depths", method)}));
-    const auto timeOfNext = [&] {
+    const auto timeOfNext = [&](int number) {
       const auto pair = reader.next();
-      return pair && *pair ? (*pair)->depth.pts : MediaTime::max();
+      if (!pair || !*pair) return MediaTime::max();
+      expectPicture((*pair)->depth, number);
+      return (*pair)->depth.pts;
     };
-    const MediaTime first = timeOfNext(), second = timeOfNext();
-    while (timeOfNext() != MediaTime::max()) {
+    const MediaTime first = timeOfNext(0), second = timeOfNext(1);
+    for (int k = 2; timeOfNext(k) != MediaTime::max(); ++k) {
     }
     ASSERT_TRUE(reader.seek(second));
-    EXPECT_EQ(timeOfNext(), second);
+    EXPECT_EQ(timeOfNext(1), second);
     ASSERT_TRUE(reader.seek(first));
-    EXPECT_EQ(timeOfNext(), first);
+    EXPECT_EQ(timeOfNext(0), first);
   }
 }
 
