@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/scan/inflate.h"
+#include "drivers/inflate/inflate.h"
 #include "platform/files/answered_file.h"
 
 namespace relievo::npz {
@@ -33,7 +33,7 @@ class MemberReader {
  private:
   AnsweredFile file_;
   Member member_;
-  std::optional<scan::Inflater> inflater_;
+  std::optional<Inflater> inflater_;
   std::uint64_t position_ = 0;  // of what the inflater gives next
 };
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/scan/inflate.h"
+#include "drivers/inflate/inflate.h"
 #include "drivers/scan/scan_file.h"
 #include "platform/error.h"
 #include "platform/files/answered_file.h"

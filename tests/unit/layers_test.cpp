@@ -105,10 +105,9 @@ bool mayInclude(std::string_view path, std::string_view included) {
   if (isUnder(path, "drivers")) {
     if (driverOf(included) == driverOf(path)) return true;
     if (included == "drivers/evdev/event_nodes.h" || included == "drivers/evdev/event_reports.h") return true;
-    if (included == "drivers/scan/inflate.h") return true;
     return isUnder(included, "drivers/usb") || isUnder(included, "drivers/force") ||
            isUnder(included, "drivers/window") || isUnder(included, "drivers/floats") ||
-           isUnder(included, "drivers/photo");
+           isUnder(included, "drivers/photo") || isUnder(included, "drivers/inflate");
   }
   if (path.ends_with("/main.cpp") && included == "drivers/registry.h") return true;
   const Room* const room = roomOf(path);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/scan/inflate.h"
+#include "drivers/inflate/inflate.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace relievo::scan {
+namespace relievo {
 namespace {
 
 constexpr std::size_t kInput = 1u << 14;
@@ -42,4 +42,4 @@ std::size_t Inflater::read(std::span<std::uint8_t> out) {
   return out.size() - stream_->avail_out;
 }
 
-}  // namespace relievo::scan
+}  // namespace relievo

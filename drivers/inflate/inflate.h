@@ -11,7 +11,7 @@
 
 #include "platform/files/answered_file.h"
 
-namespace relievo::scan {
+namespace relievo {
 
 // A copy goes on from the same place by itself, so that it can serve as a mark to return to.
 class Inflater {
@@ -44,4 +44,4 @@ class Inflater {
   bool damaged_ = false;
 };
 
-}  // namespace relievo::scan
+}  // namespace relievo
