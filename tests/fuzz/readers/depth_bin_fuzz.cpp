@@ -4,7 +4,6 @@
 #include <lz4.h>
 #include <sys/mman.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <array>
 #include <atomic>
@@ -13,9 +12,12 @@
 
 #include "drivers/scan/depth_bin.h"
 #include "platform/unique_fd.h"
+#include "tests/fuzz/deflated.h"
 
 namespace relievo {
 namespace {
+
+using test::deflated;
 
 constexpr std::size_t kSamples = 256 * 192;
 
@@ -30,20 +32,6 @@ std::string samples(std::size_t bytes_each) {
   std::string bytes(bytes_each * kSamples, '\0');
   for (std::size_t i = 0; i < kSamples; ++i) bytes[bytes_each * i + bytes_each - 2] = static_cast<char>(i / 256);
   return bytes;
-}
-
-std::string deflated(const std::string& bytes) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY);
-  std::string packed(deflateBound(&stream, bytes.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
 }
 
 std::string lz4(const std::string& bytes) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A valid archive of two arrays, one stored and one deflated, with bytes changed: each three bytes of the input are a
 // position and a value, and 0xffff cuts it off at the position before.
-#include <zlib.h>
-
 #include <string>
 
 #include "drivers/floats/floats.h"
 #include "drivers/npz/npz.h"
+#include "tests/fuzz/deflated.h"
 #include "tests/fuzz/film_fuzz.h"
 #include "tests/support/byte_writer.h"
 
@@ -14,21 +13,8 @@ namespace relievo {
 namespace {
 
 using test::ByteWriter;
+using test::deflated;
 using test::number;
-
-std::string deflated(std::string plain) {
-  z_stream stream{};
-  deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY);
-  std::string packed(deflateBound(&stream, plain.size()), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(plain.data());
-  stream.avail_in = static_cast<uInt>(plain.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  deflate(&stream, Z_FINISH);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 std::string soundArchive() {
   std::string bytes, directory;
