@@ -32,7 +32,8 @@ FilesByStem byStem(const std::vector<std::string>& names) {
 // "color_a".
 std::vector<std::string> depthStems(const std::string& stem) {
   std::vector<std::string> stems;
-  for (const std::string depth : {"depth", "disparity", "disp"}) {
+  for (const std::string_view word_for_depth : kDepthWords) {
+    const std::string depth(word_for_depth);
     for (const char* const between : {"-", "_", "."})
       stems.push_back(print("%s%s%s", stem.c_str(), between, depth.c_str()));
     for (const std::string word : {"color", "colour", "rgb", "image", "left"}) {
@@ -57,7 +58,7 @@ bool isOfDepth(std::string_view rest) {
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of("-_. "), rest.size());
     const std::string_view word = rest.substr(0, end);
-    const bool is_depth = word == "depth" || word == "depths";
+    const bool is_depth = std::ranges::find(kDepthWords, word) != kDepthWords.end();
     says_depth = says_depth || is_depth;
     if (!word.empty() && !is_depth && std::ranges::find(kBeside, word) == kBeside.end()) return false;
     rest.remove_prefix(std::min(end + 1, rest.size()));
@@ -232,15 +233,6 @@ std::string depthBeside(const std::string& film) {
     return pair && fs::path(pair->film).filename() == path.filename() ? pair->depth : "";
   }
   return depth.empty() ? "" : (path.has_parent_path() ? folder / depth : fs::path(depth)).string();
-}
-
-bool saysDepth(const std::string& url) {
-  const std::string name = lowerCase(stemOf(url.substr(url.rfind('/') + 1)));
-  const std::size_t at = name.find("depth");
-  const auto isLetter = [&](std::size_t i) {
-    return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i])) != 0;
-  };
-  return at != name.npos && (at == 0 || !isLetter(at - 1)) && !isLetter(at + 5);
 }
 
 std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {

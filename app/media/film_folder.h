@@ -28,12 +28,10 @@ struct FilmOverDepth {
 
 // The file that by its name holds the depth of the file `film`, in the same folder and of the same kind (film or
 // picture): a-depth, a_depth, a.depth, depth-a, depth_a for a; depth_a for color_a, colour_a, rgb_a, image_a or left_a;
-// the same with disparity or disp for depth; a_depth or a_vis for a_src or a_input; else names such as a_video_depth
-// and a_depth_vis. Small letters and capitals are the same. A film's may be a .npy or .tif too. Else the folder of its
-// depth pictures: `filmOverDepth`. Empty if there is none.
+// the same with another of kDepthWords (media_names.h) for depth; a_depth or a_vis for a_src or a_input; else names
+// such as a_video_depth and a_depth_vis. Small letters and capitals are the same. A film's may be a .npy or .tif too.
+// Else the folder of its depth pictures: `filmOverDepth`. Empty if there is none.
 [[nodiscard]] std::string depthBeside(const std::string& film);
-// Whether the name of the file has the word depth in it, as "clip_depth.mp4"; the folder does not count.
-[[nodiscard]] bool saysDepth(const std::string& url);
 
 // The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder, as a shell has expanded it.
 // nullopt if they are fewer than two, or no such series.

@@ -26,11 +26,12 @@ bool isPicture(MemberReader& reader) {
   return header && std::min(header->rows, header->cols) >= kLeast;
 }
 
-bool saysDepth(const std::string& name) {
+// Of names that programmers give, as "predDepth": a part of the word is enough.
+bool isOfDepth(const std::string& name) {
   const std::string small = lowerCase(name);
   const auto isIn = [&](std::string_view word) { return small.find(word) != small.npos; };
   constexpr std::array<std::string_view, 6> kOther{"conf", "mask", "valid", "uncert", "std", "color"};
-  return (isIn("depth") || isIn("disp")) && std::ranges::none_of(kOther, isIn);
+  return std::ranges::any_of(kDepthWords, isIn) && std::ranges::none_of(kOther, isIn);
 }
 
 class NpzSource final : public ArraySource {
@@ -52,7 +53,7 @@ class NpzSource final : public ArraySource {
     }
     if (pictures.size() > 1) {
       std::vector<Member> named = pictures;
-      std::erase_if(named, [](const Member& member) { return !saysDepth(member.name); });
+      std::erase_if(named, [](const Member& member) { return !isOfDepth(member.name); });
       if (named.size() == 1) pictures = std::move(named);
     }
     if (pictures.empty()) {

@@ -13,8 +13,8 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 10> kDepth{"xyz",  "depth",    "depths",    "disparity", "disparities",
-                                                  "disp", "depthmap", "depthcrop", "rawdepth",  "mist"};
+// Beside kDepthWords.
+constexpr std::array<std::string_view, 4> kDepth{"xyz", "depthcrop", "rawdepth", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
 constexpr std::array<std::string_view, 32> kOther{
@@ -22,16 +22,6 @@ constexpr std::array<std::string_view, 32> kOther{
     "ab",         "mask",     "masks",        "maskcrop",    "normal",     "normals",     "seg",        "label",
     "labels",     "instance", "infrared",     "ir",          "pose",       "thumb",       "cover",      "preview",
     "confidence", "conf",     "intrinsics",   "masked",      "annotation", "annotations", "semantics",  "instances"};
-
-std::vector<std::string> wordsOf(std::string_view name) {
-  std::vector<std::string> words(1);
-  for (const unsigned char c : name) {
-    if (std::isalpha(c) != 0) words.back() += static_cast<char>(std::tolower(c));
-    else if (!words.back().empty()) words.emplace_back();
-  }
-  if (words.back().empty()) words.pop_back();
-  return words;
-}
 
 std::vector<std::string> sortedWordsOf(std::string_view name) {
   auto words = wordsOf(name);
@@ -42,6 +32,10 @@ std::vector<std::string> sortedWordsOf(std::string_view name) {
 template <std::size_t N>
 bool holdsOne(const std::vector<std::string>& words, const std::array<std::string_view, N>& known) {
   return std::ranges::any_of(words, [&](const auto& word) { return std::ranges::find(known, word) != known.end(); });
+}
+
+bool holdsDepth(const std::vector<std::string>& words) {
+  return holdsOne(words, kDepthWords) || holdsOne(words, kDepth);
 }
 
 // Depth in the colour's view, where both are there (RealSense, OpenLORIS, ROS, Azure Kinect).
@@ -106,7 +100,7 @@ Role roleOf(std::string_view name) {
   const std::vector<std::string> words = wordsOf(name);
   if (holdsOne(words, kOther)) return Role::Other;
   const char letter = matterportLetter(name);
-  if (holdsOne(words, kDepth) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
+  if (holdsDepth(words) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
   return holdsOne(words, kColor) || beginsWith(name, 'r') || letter == 'i' ? Role::Color : Role::Unsaid;
 }
 
@@ -127,7 +121,7 @@ std::string keyOf(std::string_view name) {
     const int kind = kindOf(static_cast<unsigned char>(stem[from]));
     while (end < stem.size() && kindOf(static_cast<unsigned char>(stem[end])) == kind) ++end;
     const std::string part = lowerCase(stem.substr(from, end - from));
-    if (kind != 0 && !holdsOne({part}, kDepth) && !holdsOne({part}, kColor)) key += part + ' ';
+    if (kind != 0 && !holdsDepth({part}) && !holdsOne({part}, kColor)) key += part + ' ';
   }
   return key;
 }

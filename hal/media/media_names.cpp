@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "platform/text/lower_case.h"
 
@@ -51,6 +52,22 @@ MediaKind mediaKindOf(std::string_view name) noexcept {
   const std::string ending = endingOf(name);
   if (std::ranges::find(kFilms, ending) != kFilms.end()) return MediaKind::Film;
   return std::ranges::find(kPictures, ending) != kPictures.end() ? MediaKind::Picture : MediaKind::Neither;
+}
+
+std::vector<std::string> wordsOf(std::string_view name) {
+  std::vector<std::string> words(1);
+  for (const unsigned char c : name) {
+    if (std::isalpha(c) != 0) words.back() += static_cast<char>(std::tolower(c));
+    else if (!words.back().empty()) words.emplace_back();
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+bool saysDepth(std::string_view path) {
+  return std::ranges::any_of(wordsOf(stemOf(path.substr(path.rfind('/') + 1))), [](const std::string& word) {
+    return std::ranges::find(kDepthWords, word) != kDepthWords.end();
+  });
 }
 
 bool naturalLess(std::string_view a, std::string_view b) noexcept {

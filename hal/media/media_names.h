@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file's name says: a film, a picture or neither; and the order of numbered names.
+// What a file's name says: a film, a picture or neither; depth; and the order of numbered names.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace relievo {
 
@@ -32,6 +34,14 @@ enum class MediaKind : std::uint8_t { Film, Picture, Neither };
 [[nodiscard]] constexpr std::string_view stemOf(std::string_view name) noexcept {
   return name.substr(0, name.rfind('.'));
 }
+
+// The words that say that what a name stands for is depth, the usual one first.
+inline constexpr std::array<std::string_view, 7> kDepthWords{"depth",       "disparity", "disp",        "depths",
+                                                             "disparities", "depthmap",  "disparitymap"};
+// The words of a name, in small letters: anything but letters parts them.
+[[nodiscard]] std::vector<std::string> wordsOf(std::string_view name);
+// Whether a word of a file's name is one of kDepthWords; neither the ending nor the names of folders count.
+[[nodiscard]] bool saysDepth(std::string_view path);
 
 // Whether a folder with so many films and pictures is a list of films; else it is a series of pictures.
 [[nodiscard]] constexpr bool isListOfFilms(std::size_t films, std::size_t pictures) noexcept {

@@ -17,5 +17,12 @@ TEST(NaturalOrder, NumbersCountAndOtherScriptsComeLast) {
   EXPECT_EQ(names, (std::vector<std::string>{"2.png", "10.png", "A.mkv", "z.mkv", "é.mkv", "فيلم", "映画"}));
 }
 
+TEST(Names, SayDepthByAWord) {
+  for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm", "depths.mkv", "a-DISP.png"})
+    EXPECT_TRUE(saysDepth(name)) << name;
+  for (const char* name : {"clip.mp4", "depth/1.png", "outdepth.mkv", "display.mp4", "1.depth"})
+    EXPECT_FALSE(saysDepth(name)) << name;
+}
+
 }  // namespace
 }  // namespace relievo

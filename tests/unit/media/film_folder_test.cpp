@@ -171,12 +171,6 @@ TEST_F(FilmFolder, AnArrayOfCamerasIsNotTheDepthOfThePicturesBesideIt) {
   EXPECT_FALSE(filmOverDepth(folder_ / "u")) << "a picture says that it is the depth";
 }
 
-TEST(FilmNames, SayDepthByTheWord) {
-  for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm"}) EXPECT_TRUE(saysDepth(name)) << name;
-  for (const char* name : {"clip.mp4", "depth/1.png", "depths.mkv", "outdepth.mkv"})
-    EXPECT_FALSE(saysDepth(name)) << name;
-}
-
 TEST_F(FilmFolder, ASeriesOfPicturesAndARecordingAreNone) {
   EXPECT_EQ(filmsIn(folder_ / "none"), std::nullopt);
   EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "an empty folder";
