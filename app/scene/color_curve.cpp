@@ -65,9 +65,9 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
     const YuvColor from = colorOf(knots[i]), along = minus(colorOf(knots[i + 1]), from);
     const float per = 1 / dot(along, along);
     pieces_.push_back({from, along, {along.y * per, along.u * per, along.v * per}});
-    paces_.push_back({1 / std::hypot(along.u, along.v), std::sqrt(per)});
   }
   per_piece_ = 1 / static_cast<float>(pieces_.size());
+  using Four = float __attribute__((vector_size(16)));  // by an extension that GCC and clang share
   constexpr Four kBegin{}, kEnd{1, 1, 1, 1};
   // The number of the piece nearest to each of four colours that differ in v; as placeOn.
   const auto nearestPieces = [&](float y, float u, const Four& v) {
@@ -97,45 +97,11 @@ ColorCurve::ColorCurve(std::span<const std::uint32_t> knots) : closed_(knots.fro
   }
 }
 
-ColorCurve::FourPoints ColorCurve::nearestOfFour(const FourColors& colors) const RELIEVO_RT {
-  struct {
-    Four y, u, v;
-  } from, along, per;
-  Four first;  // of the pieces' numbers
-  for (int i = 0; i < 4; ++i) {
-    const int k = pieceFor(colors.y[i], colors.u[i], colors.v[i]);
-    const Piece& piece = pieces_[static_cast<std::size_t>(k)];
-    first[i] = static_cast<float>(k);
-    from.y[i] = piece.from.y, from.u[i] = piece.from.u, from.v[i] = piece.from.v;
-    along.y[i] = piece.along.y, along.u[i] = piece.along.u, along.v[i] = piece.along.v;
-    per.y[i] = piece.per_length.y, per.u[i] = piece.per_length.u, per.v[i] = piece.per_length.v;
-  }
-  constexpr Four kBegin{}, kEnd{1, 1, 1, 1};
-  const Four y = colors.y - from.y, u = colors.u - from.u, v = colors.v - from.v;
-  const Four t = y * per.y + u * per.u + v * per.v;
-  const Four left_y = y - t * along.y, left_u = u - t * along.u, left_v = v - t * along.v;
-  const Four distance2 = left_y * left_y + left_u * left_u + left_v * left_v;
-  const Four on_piece = t < kBegin ? kBegin + std::numeric_limits<float>::infinity() : distance2;
-  return {(first + t) * per_piece_, t > kEnd ? kBegin + std::numeric_limits<float>::infinity() : on_piece};
-}
-
-// Of a piece of the curve that reaches from s - h to s + h and turns from the direction a to b, the mean colour is off
-// by h |b - a|/(12 |a|) if it turns evenly, as a curve of many pieces does, and by up to h |b - a|/(4 |a|) if it has a
-// corner. In both cases this allows .00125.
-bool ColorCurve::isStraight(float s, float chroma) const RELIEVO_RT {
-  constexpr int kManyPieces = 20;
-  const float most_turn = pieces_.size() > kManyPieces ? 0.015F : 0.005F;
-  const auto last = static_cast<int>(pieces_.size()) - 1;
-  const auto end = static_cast<float>(last + 1), place = s * end;
-  const auto pieceAt = [&](float at) { return static_cast<std::size_t>(std::clamp(static_cast<int>(at), 0, last)); };
-  const Pace& here = paces_[pieceAt(place)];
-  const float reach = std::min(chroma * here.per_chroma / 2, end);
-  if (closed_ && (place < reach || place + reach > end)) return false;
-  const std::size_t from = pieceAt(place - reach), to = pieceAt(place + reach);
-  if (from == to) return true;
-  const YuvColor turn = minus(pieces_[to].along, pieces_[from].along);
-  const float most = most_turn * end / (reach * here.per_color);
-  return dot(turn, turn) <= most * most;
+ColorCurve::Line ColorCurve::lineOf(int k) const noexcept {
+  const Piece& piece = pieces_[static_cast<std::size_t>(k)];
+  const YuvColor& per = piece.per_length;
+  return {{per.y * per_piece_, per.u * per_piece_, per.v * per_piece_},
+          (static_cast<float>(k) - dot(piece.from, per)) * per_piece_};
 }
 
 double ColorCurve::meanPerColor() const noexcept {

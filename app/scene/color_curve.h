@@ -36,15 +36,6 @@ class ColorCurve {
 
   // In the header: `s` is then known before the distance's root is.
   [[nodiscard]] Point nearest(const YuvColor& color) const RELIEVO_RT;
-  // Four colours side by side, by a vector extension that GCC and clang share.
-  using Four = float __attribute__((vector_size(16)));
-  struct FourColors {
-    Four y, u, v;
-  };
-  struct FourPoints {
-    Four s, distance2;  // squared distance; infinite where another piece may be nearer, which only `nearest` tells
-  };
-  [[nodiscard]] FourPoints nearestOfFour(const FourColors& colors) const RELIEVO_RT;
   // The point of the curve from `low` to `high` that is nearest to the colour if an error of chroma counts less than
   // one of luma, as where chroma is mixed; and the squared distance in that metric.
   struct Between {
@@ -58,9 +49,20 @@ class ColorCurve {
   // How much the colour at s changes for a change of 1 in s.
   [[nodiscard]] YuvColor slopeAt(float s) const RELIEVO_RT;
   [[nodiscard]] bool closed() const RELIEVO_RT { return closed_; }
-  // Whether the curve is straight around s, as far as colours reach whose chroma differs by `chroma` at most: only then
-  // is their mean the colour of the mean s.
-  [[nodiscard]] bool isStraight(float s, float chroma) const RELIEVO_RT;
+  [[nodiscard]] bool isAtSeam(float s, float half_width) const RELIEVO_RT {
+    return closed_ && (s < half_width || s > 1 - half_width);
+  }
+  [[nodiscard]] int pieces() const noexcept { return static_cast<int>(pieces_.size()); }
+  // The number of the piece at s.
+  [[nodiscard]] int pieceAt(float s) const noexcept {
+    return std::clamp(static_cast<int>(s * static_cast<float>(pieces())), 0, pieces() - 1);
+  }
+  // s as a linear function of a colour near piece `k`: its slope, and its value where y, u and v are 0.
+  struct Line {
+    YuvColor slope;
+    float at_zero = 0;
+  };
+  [[nodiscard]] Line lineOf(int k) const noexcept;
   // How much s changes for a change of 1 in the colour, on average.
   [[nodiscard]] double meanPerColor() const noexcept;
 
@@ -68,9 +70,6 @@ class ColorCurve {
   static constexpr int kSide = 32;
   struct Piece {
     YuvColor from, along, per_length;  // per_length = along / |along|^2
-  };
-  struct Pace {
-    float per_chroma = 0, per_color = 0;  // pieces, for a change of 1 in chroma or in the whole colour
   };
   struct Place {
     float t = 0, distance = 0;  // squared
@@ -91,8 +90,7 @@ class ColorCurve {
   }
 
   std::vector<Piece> pieces_;
-  std::vector<Pace> paces_;  // of each piece
-  float per_piece_ = 0;      // of s
+  float per_piece_ = 0;  // of s
   bool closed_ = false;
   std::array<std::uint8_t, kSide * kSide * kSide> nearest_piece_{};
 };

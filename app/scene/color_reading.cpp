@@ -52,22 +52,30 @@ struct Edge {
 }  // namespace
 
 ColorReading::ColorReading(const Frame& frame, DepthCode code)
-    : samples_(frame), curve_(&curveOf(code)), cols_(frame.width), rows_(frame.height) {}
+    : samples_(frame),
+      curve_(&curveOf(code)),
+      table_(&samples_.tableOf(code)),
+      cols_(frame.width),
+      rows_(frame.height) {}
 
-void ColorReading::sharesOfFour(const int* columns, int r, double* shares) const RELIEVO_RT {
-  const ColorCurve::FourPoints points = curve_->nearestOfFour(samples_.ofFour(columns, r));
-  for (int i = 0; i < 4; ++i) {
-    const ColorCurve::Point point{points.s[i], std::sqrt(points.distance2[i])};
-    const bool plain = point.distance <= kUnmixed && isSure(point);
-    shares[i] = plain ? static_cast<double>(point.s) : shareAt(columns[i], r);
+void ColorReading::keepApart(const CodeSet& invalid, double steps) noexcept {
+  if (invalid.empty()) return;
+  const auto pieces = static_cast<std::size_t>(curve_->pieces());
+  for (int code = 0; code <= static_cast<int>(steps); ++code) {
+    if (!invalid.contains(static_cast<std::uint32_t>(code))) continue;
+    const auto piece = static_cast<std::size_t>(curve_->pieceAt(static_cast<float>(code / steps))) + 1;
+    // The corners before and behind it are counted after the pieces.
+    for (const std::size_t number : {piece, pieces + piece - 1, pieces + piece}) {
+      if (number <= table_->pieceCount()) apart_ |= std::uint64_t{1} << number;
+    }
   }
 }
 
-double ColorReading::shareOfBlock(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
-  ColorSamples::Even even;
-  if (!samples_.meanOfEvenBlock(c0, r0, block, even)) return kHole;
-  const ColorCurve::Point point = curve_->nearest(even.mean);
-  return isSure(point) && curve_->isStraight(point.s, even.chroma) ? static_cast<double>(point.s) : kHole;
+[[gnu::noinline]] double ColorReading::unsureShareAt(int c, int r) const RELIEVO_RT {
+  const YuvColor own = samples_.at(c, r);
+  const ColorCurve::Point reading = curve_->nearest(own);
+  return reading.distance <= ColorTable::kUnmixed && isSure(reading) ? static_cast<double>(reading.s)
+                                                                     : shareBeside(c, r, own, reading);
 }
 
 [[gnu::noinline]] double ColorReading::shareBeside(int c, int r, const YuvColor& own,

@@ -58,6 +58,7 @@ Result<HeightField> HeightField::make(const Frame& depth, const DepthCalibration
     field.mask_ = (1u << first.bits) - 1;
   }
   field.invalid_ = calibration.invalid;
+  if (field.layout_ == Layout::Curve) field.colors_.keepApart(field.invalid_, field.steps_);
   const double low = calibration.lowCode();
   field.s_scale_ = 1.0 / (calibration.highCode() - low);
   field.s_offset_ = -low * field.s_scale_;
@@ -92,76 +93,42 @@ double HeightField::meanOfCodes(int c0, int r0, const SampledBlock& block) const
 
 namespace {
 
-// The two halves of some places.
-std::array<SampledBlock::Places, 2> halves(const SampledBlock::Places& places) RELIEVO_RT {
-  SampledBlock::Places first = places, second = places;
-  first.count = places.count / 2;
-  second.count = places.count - first.count;
-  second.first += first.count * places.step;
-  return {first, second};
-}
+// Adds heights, and counts those that are known.
+struct Known {
+  double sum = 0;
+  int count = 0, looked = 0;
+
+  void add(double z, int samples) RELIEVO_RT {
+    looked += samples;
+    if (std::isnan(z)) return;
+    sum += samples * z;
+    count += samples;
+  }
+  [[nodiscard]] double mean() const RELIEVO_RT { return 2 * count < looked ? HeightField::kHole : sum / count; }
+};
 
 }  // namespace
 
 double HeightField::meanHeight(int c0, int r0, const SampledBlock& block) const RELIEVO_RT {
   if (plain_) return meanOfCodes(c0, r0, block);
-  Known known;
-  addHeights(c0, r0, block, known);
-  return 2 * known.count < known.looked ? kHole : known.sum / known.count;
-}
-
-// Reading colours one by one is costly: a block in which they differ too much for their mean is read by its quarters,
-// and of a small one every other sample, as on a chessboard.
-void HeightField::addHeights(int c0, int r0, const SampledBlock& block, Known& known) const RELIEVO_RT {
-  const double samples = block.across.count * block.down.count;
-  if (layout_ == Layout::Curve) {
-    const double mean = heightOfColor(steps_ * colors_.shareOfBlock(c0, r0, block));
-    if (!std::isnan(mean)) {
-      known.sum += samples * mean;
-      known.count += samples;
-      known.looked += samples;
-      return;
+  // Not inline: a plain block needs less.
+  const auto meanOfHeights = [&] [[gnu::noinline]] {
+    Known known;
+    if (layout_ == Layout::Curve) {
+      colors_.readBlock(c0, r0, block, [&](double share, int samples) RELIEVO_RT {
+        known.add(heightOfColor(steps_ * share), samples);
+      });
+      return known.mean();
     }
-  }
-  constexpr int kSmall = 8;
-  if (layout_ == Layout::Curve && std::min(block.across.count, block.down.count) >= kSmall) {
-    for (const SampledBlock::Places& down : halves(block.down)) {
-      for (const SampledBlock::Places& across : halves(block.across)) {
-        SampledBlock quarter = block;
-        quarter.across = across;
-        quarter.down = down;
-        addHeights(c0, r0, quarter, known);
+    for (int j = 0; j < block.down.count; ++j) {
+      const int r = r0 + block.down.first + j * block.down.step;
+      for (int i = 0; i < block.across.count; ++i) {
+        known.add(heightMm(c0 + block.across.first + i * block.across.step, r), 1);
       }
     }
-    return;
-  }
-  double sum = 0;
-  int count = 0, looked = 0;
-  const auto add = [&](double z) {
-    ++looked;
-    if (std::isnan(z)) return;
-    sum += z;
-    ++count;
+    return known.mean();
   };
-  const int stride = layout_ == Layout::Curve ? 2 : 1;
-  for (int j = 0; j < block.down.count; ++j) {
-    const int r = r0 + block.down.first + j * block.down.step;
-    const auto column = [&](int i) { return c0 + block.across.first + i * block.across.step; };
-    int i = j % stride;
-    for (; layout_ == Layout::Curve && i < block.across.count; i += 4 * stride) {
-      std::array<int, 4> columns;
-      std::array<double, 4> shares;
-      const int read = std::min(4, (block.across.count - i + stride - 1) / stride);
-      for (int k = 0; k < 4; ++k) columns[k] = column(i + std::min(k, read - 1) * stride);
-      colors_.sharesOfFour(columns.data(), r, shares.data());
-      for (int k = 0; k < read; ++k) add(heightOfColor(steps_ * shares[k]));
-    }
-    for (; i < block.across.count; i += stride) add(heightMm(column(i), r));
-  }
-  const double each = samples / looked;  // of a chessboard every sample stands for two
-  known.sum += each * sum;
-  known.count += each * count;
-  known.looked += samples;
+  return meanOfHeights();
 }
 
 void HeightField::prefetch(int c0, int r0, int blocks, const SampledBlock& block) const RELIEVO_RT {
@@ -209,11 +176,6 @@ double HeightField::colorCodeAt(int c, int r) const RELIEVO_RT {
   return steps_ * hueOf(sample[red_], sample[green_], sample[blue_]);
 }
 
-double HeightField::heightOfColor(double code) const RELIEVO_RT {
-  if (std::isnan(code) || invalid_.contains(static_cast<std::uint32_t>(code))) return kHole;
-  return fromNormalised(s_offset_ + s_scale_ * code);
-}
-
 bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm) const RELIEVO_RT {
   if (plain_) {
     const std::uint8_t* line = data_ + r * stride_bytes_;
@@ -227,12 +189,14 @@ bool HeightField::readRow(int r, std::span<const int> columns, float* heights_mm
     return false;
   }
   const float* const first = heights_mm;
-  for (; layout_ == Layout::Curve && columns.size() >= 4; columns = columns.subspan(4)) {
-    std::array<double, 4> shares;
-    colors_.sharesOfFour(columns.data(), r, shares.data());
-    for (const double share : shares) *heights_mm++ = static_cast<float>(heightOfColor(steps_ * share));
+  if (layout_ == Layout::Curve) {
+    const ColorSamples::Line line = colors_.lineAt(r);
+    for (const int c : columns) {
+      *heights_mm++ = static_cast<float>(heightOfColor(steps_ * colors_.shareAt(c, r, line)));
+    }
+  } else {
+    for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
   }
-  for (const int c : columns) *heights_mm++ = static_cast<float>(heightMm(c, r));
   return std::any_of(first, const_cast<const float*>(heights_mm), [](float z) { return std::isnan(z); });
 }
 

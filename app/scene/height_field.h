@@ -65,8 +65,9 @@ class HeightField {
 
   // A block of about `most` x `most` samples, read as this field reads them best.
   [[nodiscard]] SampledBlock blockOf(int width, int height, int most) const RELIEVO_RT {
-    return plain_ && step_bytes_ == sampleBytes() ? SampledBlock::ofWholeRows(width, height, most)
-                                                  : SampledBlock(width, height, most);
+    return layout_ == Layout::Curve || (plain_ && step_bytes_ == sampleBytes())
+               ? SampledBlock::ofWholeRows(width, height, most)
+               : SampledBlock(width, height, most);
   }
   // The mean height of the samples read from a block that begins at sample (c0, r0) and lies inside the picture. NaN if
   // fewer than half of them have a height.
@@ -99,11 +100,6 @@ class HeightField {
 
  private:
   bool operator==(const HeightField&) const = default;
-  // Of the samples of a block: the sum of the known heights, and how many they are.
-  struct Known {
-    double sum = 0, count = 0, looked = 0;
-  };
-  void addHeights(int c0, int r0, const SampledBlock& block, Known& known) const RELIEVO_RT;
   enum class Layout : std::uint8_t { Bytes, Words, Hue, Curve };
   [[nodiscard]] std::uint32_t codeAt(const std::uint8_t* sample) const RELIEVO_RT {
     const std::uint32_t low = sample[0];
@@ -124,7 +120,10 @@ class HeightField {
   void readColors(const Frame& depth, DepthCode code) noexcept;
   [[nodiscard]] double colorCodeAt(int c, int r) const RELIEVO_RT;
   // NaN, which is no code, stands for a hole.
-  [[nodiscard]] double heightOfColor(double code) const RELIEVO_RT;
+  [[nodiscard]] double heightOfColor(double code) const RELIEVO_RT {
+    if (std::isnan(code) || invalid_.contains(static_cast<std::uint32_t>(code))) return kHole;
+    return fromNormalised(s_offset_ + s_scale_ * code);
+  }
   // Only for a plain field.
   [[nodiscard]] double meanOfCodes(int c0, int r0, const SampledBlock& block) const RELIEVO_RT;
 

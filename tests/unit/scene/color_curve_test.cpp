@@ -223,6 +223,17 @@ TEST(HueOverYuv, ABlockIsAHoleByAllOfItsSamples) {
   EXPECT_FALSE(std::isnan(field.meanHeight(0, 0, {16, 8, 16})));
 }
 
+// Black, which is no depth, and the blue beside it lie on one piece of the curve.
+TEST(HueOverYuv, ABlockAtAHoleHasTheHeightOfWhatIsKnown) {
+  for (const int size : {2, 8, 15}) {
+    const Film film{.cols = 48, .rows = 32, .color = [](int c, int) { return Rgb{0, 0, c < 20 ? 0.6 : 0}; }};
+    const Frame frame = film.frame();
+    const DepthCalibration kinect{.code = DepthCode::Kinect, .invalid = CodeSet(CodeSet::Range{0, 8})};
+    const auto field = HeightField::make(frame, kinect, kUnit).value();
+    EXPECT_NEAR(field.meanHeight(19 - size / 2, 4, {size, size, 16}), 0.2, 0.01) << size;
+  }
+}
+
 // Samples of a row are read side by side; at edges, in black and at the seam one by one.
 TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
   const Film film{.color = [](int c, int r) { return c < 9 ? Rgb{} : hue(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
