@@ -11,7 +11,8 @@ namespace relievo {
 // Protects the file or folder `fd` from `removeLitter` until the descriptor is closed, however the process ends.
 // Without locks in the file system it does nothing, and `removeLitter` removes nothing there.
 void holdLitter(int fd) noexcept;
-// Removes the temporary files that dead processes left beside `target`.
+// Removes the temporary files that dead processes left beside `target`: those with a name that `litterPattern` gives,
+// and folders of such names with nothing in them but a playlist and its segments.
 void removeLitter(const std::string& target) noexcept;
 
 }  // namespace relievo

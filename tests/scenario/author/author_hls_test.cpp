@@ -72,12 +72,13 @@ TEST_F(AuthorFilm, OfThreeAuthorsOfOneNameOneWins) {
 // Simulates a killed run: its folder exists and nobody holds the lock.
 TEST_F(AuthorFilm, RemovesWhatAKilledRunOfTheSameNameHasLeft) {
   makeClip(folder_ / "film.mkv", {colorTrack(), depthTrack("gray", [](int, int, int) { return 9u; })});
-  for (const char* left : {"out.m3u8.relievo-Ab3dE6/film.segments", "other.m3u8.relievo-Ab3dE6/film.segments"}) {
+  for (const char* left :
+       {"out.m3u8.relievo-tmp-Ab3dE6/film.segments", "other.m3u8.relievo-tmp-Ab3dE6/film.segments"}) {
     std::filesystem::create_directories(folder_ / left);
   }
   ASSERT_TRUE(make({.url = folder_ / "film.mkv"}, "out.m3u8"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.m3u8.relievo-Ab3dE6"));
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "other.m3u8.relievo-Ab3dE6")) << "of another name";
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out.m3u8.relievo-tmp-Ab3dE6"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "other.m3u8.relievo-tmp-Ab3dE6")) << "of another name";
 }
 
 TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {

@@ -124,7 +124,7 @@ TEST_F(AtomicFileTest, ReplacesAFileOfTheLongestName) {
   std::ofstream(path) << "old";
   std::ofstream(litterPattern(path)) << "left by a killed writer";
   EXPECT_EQ(filesInFolder(), 2);
-  EXPECT_EQ(fs::path(litterPattern(path)).filename().string(), name.substr(0, 228) + ".relievo-XXXXXX");
+  EXPECT_EQ(fs::path(litterPattern(path)).filename().string(), name.substr(0, 225) + ".relievo-tmp-XXXXXX");
   auto file = AtomicFile::create(path);
   ASSERT_TRUE(file);
   file->write("new");
@@ -204,15 +204,22 @@ TEST_F(AtomicFileTest, OfTwoWritersThatReplaceNothingTheFirstOneWins) {
 }
 
 TEST_F(AtomicFileTest, RemovesWhatAKilledWriterHasLeftAndNothingElse) {
-  const UniqueFd held(::open(at("a.json.relievo-111111").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
+  const UniqueFd held(::open(at("a.json.relievo-tmp-111111").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
   holdLitter(held.get());
-  for (const char* name : {"a.json.relievo-222222", "a.json.backup", "b.json.relievo-222222"}) {
+  for (const char* name : {"a.json.relievo-tmp-222222", "a.json.backup", "b.json.relievo-tmp-222222"}) {
     std::ofstream(at(name)) << "left";
   }
+  const auto of_others = {"a.json.relievo-notes/diary.txt", "a.json.relievo-tmp-notes1/diary.txt",
+                          "a.json.relievo-tmp-backup1/diary.txt", "a.json.relievo-tmp-333333/diary.txt"};
+  for (const char* name : of_others) {
+    fs::create_directories(fs::path(at(name)).parent_path());
+    std::ofstream(at(name)) << "of the user";
+  }
   ASSERT_TRUE(AtomicFile::create(at("a.json")));
-  EXPECT_FALSE(fs::exists(at("a.json.relievo-222222")));
-  EXPECT_TRUE(fs::exists(at("a.json.relievo-111111"))) << "its writer is alive";
-  EXPECT_TRUE(fs::exists(at("a.json.backup")) && fs::exists(at("b.json.relievo-222222")));
+  EXPECT_FALSE(fs::exists(at("a.json.relievo-tmp-222222")));
+  for (const char* name : of_others) EXPECT_TRUE(fs::exists(at(name))) << name;
+  EXPECT_TRUE(fs::exists(at("a.json.relievo-tmp-111111"))) << "its writer is alive";
+  EXPECT_TRUE(fs::exists(at("a.json.backup")) && fs::exists(at("b.json.relievo-tmp-222222")));
 }
 
 TEST_F(AtomicFileTest, SaysThatTheFolderIsNotThere) {
