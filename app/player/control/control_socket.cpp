@@ -59,10 +59,11 @@ Outcome<void> mayReplace(const std::string& path) {
 
 Outcome<std::unique_ptr<ControlSocket>> ControlSocket::listen(const std::string& path) {
   if (path.empty() || path.size() > kMostPath) return failOn(path, {ErrorCode::InvalidArgument, 0, kTooLong});
-  if (auto may = mayReplace(path); !may) return std::unexpected(may.error());
-
   // The socket gets its mode before it has its name, and its name when it accepts connections.
   const std::string first_path = path + "~";
+  for (const std::string& taken : {path, first_path}) {
+    if (auto may = mayReplace(taken); !may) return std::unexpected(may.error());
+  }
   UniqueFd fd = newSocket();
   if (!fd.valid() || ::fchmod(fd.get(), 0600) != 0) return cannot(path);
   ::unlink(first_path.c_str());

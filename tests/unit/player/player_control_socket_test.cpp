@@ -14,6 +14,7 @@
 
 #include "app/player/control/control_socket.h"
 #include "platform/log.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/control_client.h"
 
@@ -52,6 +53,16 @@ class ControlSocketTest : public testing::Test {
   test::TemporaryFolder folder_;
   std::unique_ptr<ControlSocket> socket_;
 };
+
+TEST_F(ControlSocketTest, AFileOfItsFirstNameIsLeftAlone) {
+  socket_.reset();
+  const std::string first = path() + "~";
+  std::ofstream(first) << "a film";
+  const auto made = ControlSocket::listen(path());
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().thing, first);
+  EXPECT_EQ(test::contentOf(first), "a film");
+}
 
 TEST_F(ControlSocketTest, IsOfTheUserAloneAndGoesWithItsOwner) {
   EXPECT_EQ(fs::status(path()).permissions(), fs::perms::owner_read | fs::perms::owner_write);
