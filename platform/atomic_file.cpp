@@ -17,6 +17,7 @@
 
 #include "platform/files/file_system_answer.h"
 #include "platform/files/litter.h"
+#include "platform/files/move.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
@@ -159,10 +160,9 @@ void makeNow(const std::string& path, Made& made) {
 
 // 0 or errno.
 int putInPlace(const std::string& target, const std::string& temporary, bool nameless, Existing existing) {
-  const unsigned how = existing == Existing::Keep ? RENAME_NOREPLACE : 0;
-  const bool done = nameless ? linkInto(target, temporary, existing)
-                             : ::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), how) == 0;
-  return done ? 0 : errno;
+  if (nameless) return linkInto(target, temporary, existing) ? 0 : errno;
+  if (existing == Existing::Keep) return moveToNew(temporary, target);
+  return std::rename(temporary.c_str(), target.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace

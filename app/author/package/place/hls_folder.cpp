@@ -20,6 +20,7 @@
 #include "app/author/package/place/film_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/files/litter.h"
+#include "platform/files/move.h"
 #include "platform/unique_fd.h"
 
 namespace relievo {
@@ -92,10 +93,6 @@ std::uint64_t bytesNamed(const fs::path& playlist, const fs::path& segments) {
   return start == 0 || bytes == start ? 0 : bytes;
 }
 
-bool move(const fs::path& from, const fs::path& to, unsigned how) {
-  return ::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), how) == 0;
-}
-
 struct Move {
   fs::path from, to;
 };
@@ -104,12 +101,14 @@ struct Move {
 int putInPlace(const Move& segments, const Move& playlist, Existing existing) {
   const bool keeps = existing == Existing::Keep;
   std::error_code none;
-  const unsigned how = !keeps && fs::exists(segments.to, none) ? RENAME_EXCHANGE : RENAME_NOREPLACE;
-  if (!move(segments.from, segments.to, how)) return errno;
-  if (move(playlist.from, playlist.to, keeps ? RENAME_NOREPLACE : 0)) return 0;
-  const int os_error = errno;
-  move(segments.to, segments.from, how);
-  return os_error;
+  const bool replaces = !keeps && fs::exists(segments.to, none);
+  const auto moveSegments = replaces ? exchange : moveToNew;
+  if (const int failed = moveSegments(segments.from, segments.to); failed != 0) return failed;
+  const auto movePlaylist = [&] { return std::rename(playlist.from.c_str(), playlist.to.c_str()) == 0 ? 0 : errno; };
+  const int failed = keeps ? moveToNew(playlist.from, playlist.to) : movePlaylist();
+  if (failed != 0)
+    static_cast<void>(replaces ? exchange(segments.from, segments.to) : moveToNew(segments.to, segments.from));
+  return failed;
 }
 
 class HlsFolder final : public FilmPlace {
