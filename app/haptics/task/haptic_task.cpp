@@ -170,7 +170,15 @@ void HapticTask::publish(const FingerState& state) RELIEVO_RT {
 }
 
 void HapticTask::report(HapticFault::Kind kind, MonotonicTime time) RELIEVO_RT {
-  static_cast<void>(faults_.tryPush({kind, time}));  // after 64 unread faults further ones are dropped
+  if (faults_.tryPush({kind, time}) || kind != HapticFault::Kind::DeviceLost) return;
+  loss_ = {kind, time};
+  loss_kept_.store(true, std::memory_order_release);
+}
+
+std::optional<HapticFault> HapticTask::nextFault() noexcept {
+  if (const auto fault = faults_.tryPop()) return fault;
+  if (!loss_kept_.exchange(false, std::memory_order_acquire)) return std::nullopt;
+  return loss_;
 }
 
 }  // namespace relievo

@@ -71,7 +71,8 @@ class HapticTask final : public CyclicTask {
   // For the recorder's thread: every tick in order; nullopt when caught up. A reader that falls 4096 ticks behind,
   // 4 s at 1 kHz and half a second at 8, loses ticks but not timestamps.
   [[nodiscard]] std::optional<FingerState> nextTick() noexcept { return ticks_.tryPop(); }
-  [[nodiscard]] std::optional<HapticFault> nextFault() noexcept { return faults_.tryPop(); }
+  // At most 64 that are unread are kept, and the loss of the device in any case.
+  [[nodiscard]] std::optional<HapticFault> nextFault() noexcept;
 
   // For the thread that prints: the task's messages since the last call, in the area "haptic".
   void printLog() noexcept { log_.drain(); }
@@ -102,6 +103,8 @@ class HapticTask final : public CyclicTask {
   TripleBuffer<FingerState> finger_;
   SpscRing<FingerState, 4096> ticks_;
   SpscRing<HapticFault, 64> faults_;
+  HapticFault loss_;                     // of the device, if there was no room for it among the faults
+  std::atomic<bool> loss_kept_ = false;  // `loss_` waits to be read
   RingLog log_{"haptic"};
   HapticCounters counters_;
 };

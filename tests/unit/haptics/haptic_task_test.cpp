@@ -3,7 +3,9 @@
 #include "app/haptics/task/haptic_task.h"
 
 #include <gtest/gtest.h>
+
 #include <malloc.h>
+#include <algorithm>
 
 #include <glm/geometric.hpp>
 #include <memory>
@@ -188,6 +190,19 @@ TEST_F(HapticTaskTest, HandsEveryTickToTheRecorderInOrder) {
   }
   EXPECT_FALSE(task_->nextTick().has_value());
   EXPECT_EQ(task_->counters().ticks.load(), 100u);
+}
+
+TEST_F(HapticTaskTest, ALossIsToldBehindMoreFaultsThanAreKept) {
+  for (int i = 0; i < 70; ++i) {
+    device_.next_write_error = ErrorCode::Io;
+    tick();
+  }
+  device_.next_write_error = ErrorCode::Lost;
+  tick(3);
+  const auto told = faults();
+  EXPECT_EQ(std::ranges::count(told, HapticFault::Kind::DeviceError), 64);
+  EXPECT_EQ(std::ranges::count(told, HapticFault::Kind::DeviceLost), 1);
+  EXPECT_EQ(faults().size(), 0u);
 }
 
 TEST_F(HapticTaskTest, AForceThatCouldNotBeWrittenIsTold) {
