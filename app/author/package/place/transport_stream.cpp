@@ -2,6 +2,7 @@
 // A transport stream in a file or over the network: FFmpeg's muxer, with the missing depth signalling added to its
 // output.
 #include <array>
+#include <atomic>
 #include <cerrno>
 
 #include "app/author/package/place/film_io.h"
@@ -39,7 +40,7 @@ class TransportStream final : public FilmPlace {
     if (!live_) {
       out_ = makeFilmIo(place_.output());
       if (out_ == nullptr) return fail(ErrorCode::Exhausted, "out of memory for a film", ENOMEM);
-    } else if (const int code = avio_open(&out_, url_.c_str(), AVIO_FLAG_WRITE); code < 0) {
+    } else if (const int code = openAddress(); code < 0) {
       return fail(ErrorCode::Io,
                   "cannot send to this address; write udp://HOST:PORT, or srt://HOST:PORT of a receiver that listens",
                   osErrorOf(code));
@@ -79,6 +80,16 @@ class TransportStream final : public FilmPlace {
   [[nodiscard]] Duration latest() const noexcept override { return pacer_.latest(); }
 
  private:
+  // A receiver that does not answer must not keep the program from its end.
+  [[nodiscard]] int openAddress() {
+    const auto isCancelled = [](void* flag) {
+      return (flag != nullptr && static_cast<const std::atomic<bool>*>(flag)->load()) ? 1 : 0;
+    };
+    const AVIOInterruptCB interrupt{.callback = isCancelled,
+                                    .opaque = const_cast<std::atomic<bool>*>(CancelsAnswers::flag())};
+    return avio_open2(&out_, url_.c_str(), AVIO_FLAG_WRITE, &interrupt, nullptr);
+  }
+
   static constexpr const char* kLineFailed =
       "sending failed: the receiver has gone, or the network; start again when it is back";
 
