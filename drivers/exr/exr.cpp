@@ -26,7 +26,8 @@ namespace relievo {
 namespace {
 
 constexpr int kLongestSide = 32768;
-constexpr float kHalfMax = 65504;  // a half that holds it was clipped there
+constexpr int kLongestTile = 4096;  // a decoder holds whole tiles
+constexpr float kHalfMax = 65504;   // a half that holds it was clipped there
 constexpr std::array<std::uint8_t, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
 
 // The library reads from it; its errors are exceptions.
@@ -194,7 +195,7 @@ std::optional<FilePicture> readFile(std::span<const std::uint8_t> file, Choose&&
   try {
     Bytes bytes(file);
     Imf::Header::setMaxImageSize(kLongestSide, kLongestSide);
-    Imf::Header::setMaxTileSize(kLongestSide, kLongestSide);
+    Imf::Header::setMaxTileSize(kLongestTile, kLongestTile);
     Imf::MultiPartInputFile parts(bytes, 0);
     const Choice choice = choose(parts);
     if (choice.names.empty()) return std::nullopt;

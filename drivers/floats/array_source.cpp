@@ -37,7 +37,7 @@ Result<MediaSource::Description> ArraySource::describe(const std::string& url) {
   if (!header) {
     return fail(ErrorCode::Unsupported,
                 "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
-                "columns, with at most 16.7 million samples a picture");
+                "columns, with at most 16.7 million samples and 300 MB a picture");
   }
   if (header->fortran && header->pictures > 1) {
     return fail(ErrorCode::Unsupported,

@@ -99,7 +99,7 @@ std::optional<Header> parseHeader(std::span<const std::uint8_t> begin) {
   if (!type || !fortran || !shape || !readType(*type, header)) return std::nullopt;
   header.fortran = fortran->starts_with("True");
   const auto dimensions = readShape(*shape);
-  if (!dimensions || !arrange(*dimensions, header)) return std::nullopt;
+  if (!dimensions || !arrange(*dimensions, header) || header.pictureBytes() > kMostPictureBytes) return std::nullopt;
   return header;
 }
 

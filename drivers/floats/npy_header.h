@@ -14,6 +14,8 @@ namespace relievo::npy {
 
 constexpr std::size_t kLongestHeader = 4096;  // NumPy writes 128 bytes, and accepts no more than 10,000
 
+constexpr std::uint64_t kMostPictureBytes = 300'000'000;  // as the files of other pictures of floats
+
 struct Header {
   NumberType type;
   bool fortran = false;   // the first index is the fastest
@@ -27,7 +29,7 @@ struct Header {
 [[nodiscard]] bool isNpy(std::span<const std::uint8_t> begin) noexcept;
 // `begin`: the file's first kLongestHeader bytes, or the whole file. Nullopt if it is no npy header, if the numbers are
 // of another type, if the array has another shape, or if its pictures have more samples than
-// VideoDecoder::kMostSamples.
+// VideoDecoder::kMostSamples or more than 300 MB.
 [[nodiscard]] std::optional<Header> parseHeader(std::span<const std::uint8_t> begin);
 
 }  // namespace relievo::npy

@@ -106,11 +106,15 @@ std::optional<int> exifRotation(std::span<const std::uint8_t> jpeg) {
 }
 
 std::optional<std::string_view> property(std::string_view xmp, std::string_view name) {
+  // Each look for a value may go to the end of the text.
+  constexpr int kMostLooks = 16;
+  int looks = 0;
   for (std::size_t at = xmp.find(name); at != xmp.npos; at = xmp.find(name, at + name.size())) {
     const char before = at == 0 ? ' ' : xmp[at - 1];
     const bool element = before == '<';
     if (!element && std::isspace(static_cast<unsigned char>(before)) == 0) continue;
     if (!isNameEnd(xmp, at + name.size())) continue;
+    if (++looks > kMostLooks) break;
     if (const auto value = valueAt(xmp.substr(at + name.size()), element)) return value;
   }
   return std::nullopt;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kUsualRate = 30, kPhotoRate = 0.2;
 constexpr std::int64_t kNearest = 20'000'000;  // ns between colour and depth
+constexpr std::size_t kMostBeside = 16;        // depth pictures before or after a colour picture: 800 a second
 
 struct Valued {
   std::int64_t value = 0;
@@ -43,7 +44,11 @@ std::size_t moveToNearest(const Series& color, Series& depth) {
   std::size_t first = 0;
   for (std::size_t c = 0; c < color.size(); ++c) {
     while (first < depth.size() && depth[first].value <= color[c].value - kNearest) ++first;
-    for (std::size_t d = first; d < depth.size() && depth[d].value < color[c].value + kNearest; ++d) {
+    const auto near = std::ranges::lower_bound(depth, color[c].value, {}, &Valued::value) - depth.begin();
+    const auto middle = static_cast<std::size_t>(near);
+    const std::size_t begin = std::max(first, middle - std::min(middle, kMostBeside));
+    const std::size_t end = std::min(depth.size(), middle + kMostBeside);
+    for (std::size_t d = begin; d < end && depth[d].value < color[c].value + kNearest; ++d) {
       candidates.push_back({std::abs(depth[d].value - color[c].value), c, d});
     }
   }

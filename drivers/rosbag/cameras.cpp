@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kMmPerMetre = 1000;
 constexpr std::size_t kLensCoefficients = 8;
-constexpr std::size_t kMostMotions = 500;  // read of each topic of transforms
+// What is read of transforms: messages of a topic, bytes of a message, and frames of all topics.
+constexpr std::size_t kMostMotions = 500, kMostMotionBytes = std::size_t{1} << 20, kMostFrames = 10'000;
 
 std::optional<std::uint32_t> findTopic(const BagFile& bag, const std::string& name) {
   for (const auto& [id, connection] : bag.connections()) {
@@ -101,12 +102,13 @@ FrameTree readFrames(BagFile& bag) {
   for (const auto& [id, connection] : bag.connections()) {
     if (connection.type != "tf2_msgs/TFMessage" && connection.type != "tf/tfMessage") continue;
     eachMessage(bag, id, kMostMotions, [&](const Range& content, const Record& record) {
+      if (record.data_bytes > kMostMotionBytes) return true;
       const auto message = readMessage(bag, content, record);
       if (!message) return false;
       for (FrameMotion& motion : parseFrameMotions(*message)) {
         tree.emplace(withoutSlash(motion.child), std::move(motion));
       }
-      return true;
+      return tree.size() < kMostFrames;
     });
   }
   return tree;

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "drivers/rosbag/bag_file.h"
+
 namespace relievo::rosbag {
 namespace {
 
@@ -106,6 +108,8 @@ Result<void> SqliteView::open(AnsweredFile file, const std::atomic<bool>& cancel
   // A query of the file's own that is named like a table need not end.
   sqlite3_db_config(database_, SQLITE_DBCONFIG_ENABLE_VIEW, 0, nullptr);
   sqlite3_db_config(database_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  // Nor need a computed column stay small.
+  sqlite3_limit(database_, SQLITE_LIMIT_LENGTH, int{kMostMessage});
   // A message is read once; SQLite need not keep its pages.
   sqlite3_exec(database_, "PRAGMA cache_size = 8", nullptr, nullptr, nullptr);
   constexpr int kSteps = 1000;  // of SQLite's machine, between looks at the flag

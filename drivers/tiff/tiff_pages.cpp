@@ -8,7 +8,7 @@
 namespace relievo::tiff {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 8, kEntryBytes = 12, kMostEntries = 1024, kMostPages = 1 << 20;
+constexpr std::size_t kHeaderBytes = 8, kEntryBytes = 12, kMostEntries = 1024, kMostPages = 1 << 16;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 29;  // of a page
 constexpr std::uint16_t kReduced = 254, kStrips = 273, kStripBytes = 279, kTiles = 324, kTileBytes = 325;
 constexpr std::uint16_t kShort = 3, kLong = 4;
@@ -57,8 +57,12 @@ struct Directory {
 };
 
 std::optional<Bytes> read(const AnsweredFile& file, std::uint64_t offset, std::uint64_t count) {
-  const std::uint64_t whole = file.bytes().value_or(0);
-  if (offset > whole || count > whole - offset || count > kMostBytes) return std::nullopt;
+  constexpr std::uint64_t kUnasked = 1 << 16;  // more than a directory: so much is allocated before the size is known
+  if (count > kMostBytes) return std::nullopt;
+  if (count > kUnasked) {
+    const std::uint64_t whole = file.bytes().value_or(0);
+    if (offset > whole || count > whole - offset) return std::nullopt;
+  }
   Bytes bytes(static_cast<std::size_t>(count));
   return file.read(offset, bytes).value_or(0) == bytes.size() ? std::optional(std::move(bytes)) : std::nullopt;
 }

@@ -12,7 +12,7 @@
 
 namespace relievo::tiff {
 
-// TIFF 6.0, section 2. What is read is bounded by the file's size.
+// TIFF 6.0, section 2. At most 65,536 pages; what is read of one is bounded by the file's size.
 class Pages {
  public:
   // Nullopt unless the file is a TIFF in 32 bits (no BigTIFF) whose first page can be read.

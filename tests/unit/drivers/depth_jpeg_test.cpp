@@ -198,6 +198,17 @@ TEST(DepthJpeg, OtherPhotosAreColourAlone) {
   }
 }
 
+// Each look for the value of a name may go to the end of a long text.
+TEST(DepthJpeg, ANameWithoutAValueIsLookedAtABoundedNumberOfTimes) {
+  const test::TemporaryFolder folder;
+  for (const int names : {4, 100}) {
+    std::string xmp = "<rdf:Description " + meaning("RangeInverse", "0.5", "4.0", "m");
+    for (int i = 0; i < names; ++i) xmp += "GDepth:Data=none ";
+    write(folder / "a.jpg", standardXmp(xmp + "GDepth:Data=\"" + base64(inversePng()) + "\"/>"));
+    EXPECT_EQ(test::openFilm({.url = folder / "a.jpg"}).info.has_depth, names == 4) << names;
+  }
+}
+
 // The file is sparse: it takes no space on the disk.
 TEST(DepthJpeg, AFileThatIsTooLargeIsNotRead) {
   const test::TemporaryFolder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PFM, dpt and npy files, written here byte by byte: every type of number, byte order and shape, and damaged files.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -220,6 +221,15 @@ TEST(Npy, FloatsComeInEveryWidthOrderAndByteOrder) {
                    [&](std::size_t r, std::size_t c) { return std::round(1e6 * factor * slope(r, c)) / 1e6; });
     }
   }
+}
+
+// Three components of 8 bytes: 403 MB a picture, of which the file has nothing.
+TEST(Npy, APictureOfOver300MegabytesIsRefusedBeforeItIsAllocated) {
+  const test::TemporaryFolder folder;
+  write(folder / "depth.npy", npy("<f8", false, "2, 4096, 4096, 3", ""));
+  const auto opened = drivers::makeMediaSource(folder / "depth.npy")->open(folder / "depth.npy");
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().message, testing::HasSubstr("300 MB"));
 }
 
 TEST(Npy, NumbersOfHalfPrecisionAreReadExactly) {

@@ -122,6 +122,29 @@ TEST(TiffPages, ThatWouldFillTheMemoryAreDamaged) {
   EXPECT_EQ(pages->page(*file, 0).error().code, ErrorCode::Corrupt);
 }
 
+// 18 bytes each: a directory of one entry, and the place of the next.
+TEST(TiffPages, AreNotListedWithoutEnd) {
+  constexpr std::uint32_t kPages = 70'000, kBytes = 18;
+  constexpr std::uint16_t kOne = 1, kWidth = 256, kLong = 4;
+  test::ByteWriter bytes;
+  bytes.raw({"II*\0\x08\0\0\0", 8});
+  for (std::uint32_t i = 1; i <= kPages; ++i) {
+    bytes.add(kOne)
+        .add(kWidth)
+        .add(kLong)
+        .add(std::uint32_t{1})
+        .add(std::uint32_t{40})
+        .add(i < kPages ? 8 + i * kBytes : 0);
+  }
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "p.tif", std::ios::binary) << bytes.bytes();
+  const auto file = AnsweredFile::open(folder / "p.tif");
+  ASSERT_TRUE(file);
+  const auto pages = tiff::Pages::of(*file);
+  ASSERT_TRUE(pages);
+  EXPECT_LE(pages->count(), std::size_t{1} << 16);
+}
+
 TEST(TiffPages, ThatFollowThemselvesEnd) {
   const test::TemporaryFolder folder;
   std::string file = swappedPages({5, 6});
