@@ -59,6 +59,7 @@ Result<void> PairReader::Impl::openDepth(const StreamInfo& color) {
 
 Result<void> PairReader::Impl::openOwnDepth(const StreamInfo& color) {
   meaning.lookForRegistration(color);
+  supply.pairByCount(color);
   supply.followDepth();
   const auto first = firstDepth();
   if (first && *first != nullptr) {

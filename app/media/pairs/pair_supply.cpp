@@ -122,7 +122,7 @@ Result<DepthFollower::Supplied> PairSupply::supplyOwnDepth() {
   own_.away = given->away;
   if (given->frame.empty()) return DepthFollower::Supplied{std::nullopt, given->ended};
   if (own_.session != given->session.number) meet(given->session, given->frame.pts);
-  given->frame.pts += own_.shift;
+  given->frame.pts = stretched(given->frame.pts, own_.stretch) + own_.shift;
   return DepthFollower::Supplied{std::move(given->frame), false};
 }
 

@@ -31,6 +31,9 @@ class PairSupply {
   [[nodiscard]] const MaterialPictures& material() const noexcept { return material_; }
   // The depth has a stream of its own.
   void followDepth();
+  // Two files with as many pictures each are paired by their numbers, although their rates differ. Before the depth is
+  // followed.
+  void pairByCount(const StreamInfo& color);
   [[nodiscard]] bool followsDepth() const noexcept { return depth_.has_value(); }
   void goOnWithDepth() noexcept;  // after the film was opened again
   void dropDepth() noexcept;
@@ -71,6 +74,9 @@ class PairSupply {
   [[nodiscard]] Result<void> seekDepth(MediaTime target);
   [[nodiscard]] Result<void> goOnInFile();
   void meet(const DepthSource::Session& session, MediaTime first);
+  [[nodiscard]] static MediaTime stretched(MediaTime time, double by) noexcept {
+    return by == 1 ? time : mediaTime(toSeconds(time.time_since_epoch()) * by);
+  }
 
   OpenFilm& film_;
   StoredForm& form_;
@@ -82,6 +88,7 @@ class PairSupply {
   std::optional<Frame> depth_again_;  // a picture that was supplied before its order was known
   // Of `sources.depth()`, which reads `depth_url`.
   struct OwnDepth {
+    double stretch = 1;                    // by which the session's timestamps are multiplied first
     Duration shift{0};                     // added to the session's timestamps to get the film's
     std::optional<std::uint32_t> session;  // the session that `shift` applies to
     bool away = false;                     // late or lost, and being retried

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaves out pictures, seeks in a film, resumes it after its source was lost, and aligns the clocks of two sources.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/media/pairs/pair_supply.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
@@ -20,7 +22,42 @@ Duration distanceByName(const MediaSource& color, const DepthSource::Session& de
   return 2 * common >= std::min(color.duration(), depth.duration) ? distance : Duration(0);
 }
 
+double perSecond(const Ratio& rate) noexcept {
+  return rate.known() ? static_cast<double>(rate.num) / rate.den : 0;
+}
+
+// The number of pictures of a file that has them at even steps; 0 if unknown.
+double evenPictures(const StreamInfo& stream) noexcept {
+  constexpr double kEven = 0.02;  // a phone's film of 30 a second is stated as 29.8 or so
+  const double average = perSecond(stream.average_rate), base = perSecond(stream.base_rate);
+  if (base == 0 || std::abs(average / base - 1) > kEven) return 0;
+  return std::round(toSeconds(stream.duration) * average);
+}
+
+// Longer or shorter by more than a picture and by more than 1 %, as the last picture or sound may make a film.
+bool differInLength(const StreamInfo& color, const StreamInfo& depth) noexcept {
+  const Duration least = std::max({color.frame_period, depth.frame_period, color.duration / 100});
+  return std::chrono::abs(color.duration - depth.duration) > least;
+}
+
 }  // namespace
+
+void PairSupply::pairByCount(const StreamInfo& color) {
+  own_.stretch = 1;
+  const DepthSource* const source = film_.sources.depth();
+  if (source == nullptr || film_.live) return;
+  const StreamInfo& depth = source->stream();
+  const double pictures = evenPictures(color);
+  const bool films = color.duration > Duration(0) && depth.duration > depth.frame_period;
+  if (!films || !differInLength(color, depth)) return;
+  const bool counted = pictures > 1 && pictures == evenPictures(depth);
+  if (counted) own_.stretch = perSecond(depth.average_rate) / perSecond(color.average_rate);
+  const double depth_s = toSeconds(depth.duration), color_s = toSeconds(color.duration);
+  film_.info.notes.push_back(
+      counted ? print("colour and depth have %.0f pictures each, of %.4g and %.4g a second: they are paired by number",
+                      pictures, perSecond(color.average_rate), perSecond(depth.average_rate))
+              : print("the depth lasts %.1f s, the colour %.1f s: they are paired by time", depth_s, color_s));
+}
 
 void PairSupply::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
   if (film_.live || key_step_ != Duration(0)) return;
@@ -80,7 +117,7 @@ Result<void> PairSupply::seekDepth(MediaTime target) {
   depth_->restart();
   own_.lost = false;
   if (!film_.sources.depth()) return {};
-  const auto sought = film_.sources.depth()->seek(target - own_.shift, key_step_);
+  const auto sought = film_.sources.depth()->seek(stretched(target - own_.shift, 1 / own_.stretch), key_step_);
   if (sought) return {};
   if (sought.error().code == ErrorCode::Cancelled) return film_.failOn(film_.depthUrl(), sought.error());
   loseDepth(sought.error());

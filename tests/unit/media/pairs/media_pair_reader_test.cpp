@@ -201,6 +201,36 @@ TEST(PairReader, RatesAndEndsAreToldByTimestamps) {
   EXPECT_EQ(story({.url = folder / "later.mkv"}), "0:- 1:- 2:0 3:1");
 }
 
+// As scripts write depth that round a film's 29.97 pictures a second down.
+TEST(PairReader, TwoFilesOfAsManyPicturesArePairedByNumber) {
+  TemporaryFolder folder;
+  ClipTrack c = color(30, 90);
+  c.fps_num = 30000, c.fps_den = 1001;
+  makeClip(folder / "color.mkv", {c});
+  makeClip(folder / "depth.mkv", {depth(29, 90)});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"}).has_value());
+  EXPECT_THAT(reader.info().notes, testing::Contains(testing::HasSubstr("90 pictures each, of 29.97 and 29 a second")));
+  const auto pairs = readAll(reader);
+  ASSERT_EQ(pairs.size(), 90u);
+  for (int k = 0; k < 90; ++k) EXPECT_EQ(numberOf(pairs[static_cast<std::size_t>(k)].depth), k);
+  ASSERT_TRUE(reader.seek(mediaTime(2)).has_value());
+  const auto there = reader.next();
+  ASSERT_TRUE(there && *there);
+  EXPECT_EQ(numberOf((*there)->depth), numberOf((*there)->color));
+}
+
+TEST(PairReader, TwoFilesOfOtherLengthsAreToldAndPairedByTime) {
+  TemporaryFolder folder;
+  makeClip(folder / "color.mkv", {color(30, 12)});
+  makeClip(folder / "depth.mkv", {depth(15, 3)});
+  PairReader reader(kFfmpeg);
+  ASSERT_TRUE(reader.open({.url = folder / "color.mkv", .depth_url = folder / "depth.mkv"}).has_value());
+  EXPECT_THAT(reader.info().notes,
+              testing::Contains("the depth lasts 0.2 s, the colour 0.4 s: they are paired by time"));
+  EXPECT_EQ(numberOf(readAll(reader).at(4).depth), 2);
+}
+
 TEST(PairReader, AMissingDepthPictureIsAMismatch) {
   TemporaryFolder folder;
   ClipTrack gaps = depth(25, 8);
