@@ -127,14 +127,38 @@ CodeCount countOf(const Frame& look, std::span<const Frame> later) {
   return count;
 }
 
-// Numbers are what their name says, else what is usual in their files. Numbers that begin at 0 are relative disparities
-// if that makes the view nearer below, and doubted as distances: these do not begin at 0.
+// Arrays of numbers without a hole are a network's, of which many give relative disparities and call them depth.
+bool isOfNetwork(const DepthClues& clues, const CodeCount& count) {
+  constexpr double kMostHoles = 0.002;
+  return clues.codec == "npy" && count.share(0, 0) < kMostHoles;
+}
+
+// Video Depth Anything writes relative disparities unless it is told to write metres.
+bool isOfVideoDepthAnything(const DepthClues& clues, const Frame& look, const CodeCount& count) {
+  return clues.path.find("_depths.npz") != std::string::npos && isOfNetwork(clues, count) &&
+         !looksLikeDistance(look, count);
+}
+
+// A relative disparity has an arbitrary zero, whatever its range.
+void makeRelative(DepthReading& read) {
+  read.settings["law"] = "linear";
+  read.settings.erase("near");
+  read.settings.erase("far");
+}
+
+// Numbers are what their name says, else what is usual in their files. Numbers that begin at 0, or are a network's, are
+// relative disparities if that makes the view nearer below, and doubted as distances.
 DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
                          const CalibrationLayers& layers) {
-  const bool usual = namesDisparity(clues.path).value_or(clues.codec == "pfm" && !mayBeMetres(look, count));
-  const bool seen = !usual && areRelative(count) && looksLikeDisparity(look, count);
+  const auto named = namesDisparity(clues.path);
+  const bool usual = named.value_or(clues.codec == "pfm" && !mayBeMetres(look, count));
+  const bool open = !usual && !definesCodes(layers);
+  const bool network = open && isOfNetwork(clues, count);
+  const bool seen = (open && isOfVideoDepthAnything(clues, look, count)) ||
+                    (!usual && (areRelative(count) || network) && looksLikeDisparity(look, count));
   DepthReading read = readFloats(look, count, usual || seen, layers);
-  read.unsure = seen || (!usual && areRelative(count) && !areFromAfar(look, count));
+  if (seen && network) makeRelative(read);
+  read.unsure = seen || (network && !named) || (!usual && areRelative(count) && !areFromAfar(look, count));
   return read;
 }
 

@@ -112,6 +112,13 @@ void scale(CalibrationSettings& settings, double value) {
   }
 }
 
+double nearerBelowAsDistances(const Frame& depth, const CodeCount& count) {
+  const auto [low, high] = count.reach(kOutliers, 1, kTop);
+  DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
+  distances.codes = CodeSet::Range{low, std::max(high, low + 1)};
+  return nearerBelow(depth, distances);
+}
+
 }  // namespace
 
 std::optional<bool> namesDisparity(std::string_view path) {
@@ -131,10 +138,11 @@ std::optional<bool> namesDisparity(std::string_view path) {
 }
 
 bool looksLikeDisparity(const Frame& depth, const CodeCount& count) {
-  const auto [low, high] = count.reach(kOutliers, 1, kTop);
-  DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
-  distances.codes = CodeSet::Range{low, std::max(high, low + 1)};
-  return nearerBelow(depth, distances) < -kClearlyNearer;
+  return nearerBelowAsDistances(depth, count) < -kClearlyNearer;
+}
+
+bool looksLikeDistance(const Frame& depth, const CodeCount& count) {
+  return nearerBelowAsDistances(depth, count) > kClearlyNearer;
 }
 
 bool areRelative(const CodeCount& count) {

@@ -26,6 +26,9 @@ namespace relievo {
 // True if disparities make the picture's lower part clearly nearer than its upper one.
 [[nodiscard]] bool looksLikeDisparity(const Frame& depth, const CodeCount& count);
 
+// True if distances do so.
+[[nodiscard]] bool looksLikeDistance(const Frame& depth, const CodeCount& count);
+
 // True if the largest number is so many times the smallest that their zero is arbitrary: neither a distance of 0 nor a
 // disparity of infinitely far.
 [[nodiscard]] bool areRelative(const CodeCount& count);

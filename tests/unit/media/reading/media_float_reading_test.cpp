@@ -188,6 +188,37 @@ TEST(FloatReading, NumbersThatBeginAt0AreDoubtedAsDistances) {
   EXPECT_THAT(doubtsOf(0.4), IsEmpty());
 }
 
+// Numbers of 2 and more that rise or fall downwards, or else to the right.
+DepthMeaning meaningOfArray(const char* path, bool near_high, bool tilted = true) {
+  Frame frame = test::makeGrayFrame(kCols, kRows, 16, {}, [&](int c, int r) {
+    const int step = tilted ? r : c;
+    return near_high ? 20'000 + 500 * step : 60'000 - 500 * step;
+  });
+  frame.value_per_code = 1e-4;
+  return readMeaning({.codec = "npy", .path = path}, nullptr, frame).value();
+}
+
+// As Video Depth Anything's, far from 0 and without holes.
+TEST(FloatReading, AnArrayWithoutHolesIsRelativeDisparitiesIfThatMakesTheFloorNear) {
+  for (const char* path : {"film_depths.npz/depths.npy", "a.npy", "depth.npy"}) {
+    const DepthMeaning seen = meaningOfArray(path, true);
+    EXPECT_EQ(seen.calibration.calibration.polarity, DepthPolarity::NearIsHigh) << path;
+    EXPECT_EQ(seen.calibration.calibration.law, DepthLaw::Linear) << path;
+    EXPECT_THAT(seen.reading.doubts, Contains(HasSubstr("unit=1000"))) << path;
+    EXPECT_TRUE(meaningOfArray(path, false).calibration.calibration.unit_mm) << path;
+  }
+}
+
+TEST(FloatReading, ALevelArrayIsDistancesUnlessItsProgramWritesDisparities) {
+  const DepthMeaning program = meaningOfArray("film_depths.npz/depths.npy", true, false);
+  EXPECT_EQ(program.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(program.reading.doubts, Contains(HasSubstr("unit=1000")));
+  const DepthMeaning unnamed = meaningOfArray("film.npy", true, false);
+  EXPECT_TRUE(unnamed.calibration.calibration.unit_mm);
+  EXPECT_THAT(unnamed.reading.doubts, Contains(HasSubstr("law=inverse")));
+  EXPECT_THAT(meaningOfArray("depth/film.npy", true, false).reading.doubts, IsEmpty());
+}
+
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("a/Disparity/left/7.tif"), true);
   EXPECT_EQ(namesDisparity("disp0.npy"), true);
