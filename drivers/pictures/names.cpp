@@ -175,6 +175,31 @@ std::optional<std::chrono::sys_seconds> momentIn(std::string_view stem) {
   return std::nullopt;
 }
 
+// Of "20230501_123015_100000" and "2023-05-01_12-30-15-100": the date, the time, and us or ms.
+std::optional<std::int64_t> dateIn(std::string_view stem) {
+  constexpr std::size_t kMsDigits = 3, kUsDigits = 6;
+  const std::vector<Run> runs = runsOf(stem);
+  if (runs.empty() || !runs.back().digits) return std::nullopt;
+  const std::string_view fraction = runs.back().text;
+  const bool ms = fraction.size() == kMsDigits;
+  if (!ms && fraction.size() != kUsDigits) return std::nullopt;
+  std::string digits;
+  for (const Run& run : runs) digits += run.digits ? run.text : "";
+  digits.resize(digits.size() - fraction.size());
+  const auto moment = digits.size() == kDateDigits ? momentIn(digits) : std::nullopt;
+  if (!moment) return std::nullopt;
+  return std::chrono::nanoseconds(moment->time_since_epoch()).count() + *integerIn(fraction) * (ms ? 1'000'000 : 1000);
+}
+
+// Whether most of the times are nearer to each other than photos are.
+bool areOfFrames(std::vector<std::int64_t> times) {
+  constexpr std::int64_t kFar = 3'000'000'000;
+  std::ranges::sort(times);
+  std::size_t near = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) near += times[i] - times[i - 1] < kFar ? 1 : 0;
+  return 2 * near > times.size() - 1;
+}
+
 // Whether the names tell moments of several days, or dates with the time in one number, most of them some seconds
 // apart. Frames are nearer.
 bool tellDays(const std::vector<std::string>& names) {
@@ -229,6 +254,9 @@ std::optional<std::int64_t> nanosecondsIn(std::string_view seconds) noexcept {
 NameValues valuesOf(const std::vector<std::string>& names) {
   if (names.empty()) return {};
   if (auto times = readAll(names, timeIn)) return {NameKind::Seconds, std::move(*times)};
+  if (auto times = readAll(names, dateIn); times && areOfFrames(*times)) {
+    return {NameKind::Seconds, std::move(*times)};
+  }
   if (auto times = clockIn(names)) return {NameKind::Seconds, std::move(*times)};
   if (auto numbers = numbersIn(names, countIn)) return {NameKind::Numbers, std::move(*numbers)};
   return {NameKind::Ranks, ranksOf(names)};

@@ -152,5 +152,17 @@ TEST(StereoNames, NumbersOfASeriesAreNoCameras) {
   EXPECT_EQ(cameras->left + " " + cameras->right, "image_02 image_03");
 }
 
+TEST(PictureNames, DatesWithAFractionOfASecondAreTimes) {
+  const auto us = valuesOf({"20230501_123015_900000.png", "20230501_123016_000000.png"});
+  EXPECT_EQ(us.kind, NameKind::Seconds);
+  ASSERT_EQ(us.values.size(), 2u);
+  EXPECT_EQ(us.values[0], 1'682'944'215'900'000'000);  // date -u -d "2023-05-01 12:30:15" +%s
+  EXPECT_EQ(us.values[1] - us.values[0], 100'000'000);
+  const auto ms = valuesOf({"rgb_2023-05-01_12-30-15-005.png", "rgb_2023-05-01_12-30-15-105.png"});
+  EXPECT_EQ(ms.kind, NameKind::Seconds);
+  EXPECT_EQ(ms.values.back() - ms.values.front(), 100'000'000);
+  EXPECT_NE(valuesOf({"20230501_123015_001.jpg", "20230501_124015_002.jpg"}).kind, NameKind::Seconds) << "photos";
+}
+
 }  // namespace
 }  // namespace relievo
