@@ -56,6 +56,10 @@ constexpr const char* kHdf5 =
 constexpr const char* kMatlab =
     "it is a MATLAB file; convert it: python3 -c 'import scipy.io, numpy; numpy.save(\"depth.npy\", "
     "scipy.io.loadmat(\"FILE\")[\"NAME\"])', NAME being its variable with the depth";
+// HDF5 behind a head of its own, whose columns lie behind each other; NYU's depth is called depths.
+constexpr const char* kMatlab73 =
+    "it is a MATLAB 7.3 file; convert it: python3 -c 'import h5py, numpy; numpy.save(\"depth.npy\", "
+    "h5py.File(\"FILE\")[\"NAME\"][:].swapaxes(-1, -2))', NAME being its variable with the depth, such as depths";
 constexpr const char* kOpencv =
     "it is a matrix of OpenCV as text; convert it: python3 -c 'import cv2, numpy; numpy.save(\"depth.npy\", "
     "cv2.FileStorage(\"FILE\", 0).getFirstTopLevelNode().mat())'";
@@ -162,6 +166,7 @@ bool isOfColmap(std::string_view head) {
 const char* unreadVariant(std::string_view head, std::string_view path) {
   constexpr std::size_t kFlags = 20;  // of WebP; 2: it is animated
   const std::string ending = endingOf(path);
+  if (head.starts_with("MATLAB 7.3")) return kMatlab73;
   if (path.ends_with(".depth_meters.hdf5"))
     return "it holds Hypersim's distances from the camera's centre, which are no depth yet; name its folder instead: "
            "the command that converts all of it is then printed";

@@ -129,6 +129,7 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.ply", "ply\nformat"sv, {"point cloud", "recording"}},
       {"a.pcd", "# .PCD v0.7"sv, {"point cloud", "recording"}},
       {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy", "loadmat"}},
+      {"nyu.mat", "MATLAB 7.3 MAT-file"sv, {"MATLAB 7.3", "h5py", "swapaxes(-1, -2)"}},
       {"a.raw", "\1\2"sv, {"without a picture size", "gray16le"}},
       {"a.bin", "\1\2"sv, {"without a picture size", "gray16le"}},
       {"a.yuv", "\1\2"sv, {"without a size", "its name", "of 8 bits FORMAT is yuv420p,", "of 16 yuv420p16le"}},
