@@ -37,7 +37,8 @@ Result<MediaSource::Description> ArraySource::describe(const std::string& url) {
   if (!header) {
     return fail(ErrorCode::Unsupported,
                 "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
-                "columns, with at most 16.7 million samples and 300 MB a picture");
+                "columns, with at most 16.7 million samples and 300 MB a picture; rows x columns x pictures are put in "
+                "order by numpy.moveaxis(a, -1, 0)");
   }
   if (header->fortran && header->pictures > 1) {
     return fail(ErrorCode::Unsupported,

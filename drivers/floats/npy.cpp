@@ -69,6 +69,9 @@ bool arrange(std::vector<std::uint64_t> shape, Header& header) {
     shape.pop_back();
   }
   if (shape.size() == 4 && shape[1] == 1) shape.erase(shape.begin() + 1);  // pictures x 1 x rows x columns
+  // Rows x columns x pictures: no picture is so narrow.
+  constexpr std::uint64_t kNarrow = 8;
+  if (shape.size() == 3 && shape[2] <= std::min(shape[0], shape[1]) / kNarrow) return false;
   if (shape.size() == 3) {
     header.pictures = shape[0];
     shape.erase(shape.begin());

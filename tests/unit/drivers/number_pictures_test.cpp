@@ -336,7 +336,8 @@ TEST(Npy, OtherArraysAreRefused) {
        {npy("<c8", false, shape(), bytes), npy("|b1", false, shape(), bytes), npy("<f4", false, "391,", bytes),
         npy("<f4", false, "0, 23", bytes), npy("<f4", false, "70000, 2", bytes), npy("<f4", false, "32768, 32768", ""),
         npy("<f4", false, "18446744073709551615, 18446744073709551615", ""), npy("<f4", true, "2, 4, 7", bytes),
-        npy("<f4", false, "2, 2, 2, 2, 2", bytes), std::string("\x93NUMPY\x01\0\xff\xff{", 11)}) {
+        npy("<f4", false, "2, 2, 2, 2, 2", bytes), npy("<f4", false, shape() + ", 2", bytes + bytes),
+        std::string("\x93NUMPY\x01\0\xff\xff{", 11)}) {
     write(folder / "z.npy", file);
     EXPECT_FALSE(drivers::makeMediaSource(folder / "z.npy")->open(folder / "z.npy")) << file.substr(0, 80);
   }
