@@ -14,7 +14,7 @@ namespace relievo::pictures {
 namespace {
 
 // Beside kDepthWords.
-constexpr std::array<std::string_view, 4> kDepth{"xyz", "depthcrop", "rawdepth", "mist"};
+constexpr std::array<std::string_view, 5> kDepth{"xyz", "depthcrop", "depthmaps", "rawdepth", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
 constexpr std::array<std::string_view, 32> kOther{
@@ -44,6 +44,35 @@ constexpr std::array<std::string_view, 3> kInColorsView{"aligned", "registered",
 // Depth painted for the eye, beside the codes themselves.
 constexpr std::array<std::string_view, 10> kPainted{"vis",      "viz",       "visual", "visualization", "colored",
                                                     "coloured", "colorized", "color",  "colormap",      "heatmap"};
+
+Role roleOfWords(const std::vector<std::string>& words) {
+  if (holdsOne(words, kOther)) return Role::Other;
+  if (holdsDepth(words)) return Role::Depth;
+  return holdsOne(words, kColor) ? Role::Color : Role::Unsaid;
+}
+
+// "Kinect Depth" of "KinectDepth": a capital behind a small letter begins a word.
+std::string partedAtCapitals(std::string_view name) {
+  std::string parted;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto is = [&](int (*kind)(int), std::size_t at) { return kind(static_cast<unsigned char>(name[at])) != 0; };
+    if (i > 0 && is(std::isupper, i) && is(std::islower, i - 1)) parted += ' ';
+    parted += name[i];
+  }
+  return parted;
+}
+
+// The words that a name joins: "depth" of "depthImages" and of "depthimages".
+std::vector<std::string> partsOf(std::string_view name) {
+  constexpr std::array<std::string_view, 6> kPictures{"images", "image", "imgs", "img", "frames", "frame"};
+  std::vector<std::string> parts = wordsOf(partedAtCapitals(name));
+  for (std::string& part : parts) {
+    const auto ends = [&](std::string_view end) { return part.size() > end.size() && part.ends_with(end); };
+    const auto end = std::ranges::find_if(kPictures, ends);
+    if (end != kPictures.end()) part.resize(part.size() - end->size());
+  }
+  return parts;
+}
 
 // NYU's raw files: "d-1294886362.665769-3143787185.pgm".
 bool beginsWith(std::string_view name, char letter) {
@@ -97,11 +126,13 @@ bool isBetter(const std::string& a, const std::string& b) {
 }  // namespace
 
 Role roleOf(std::string_view name) {
-  const std::vector<std::string> words = wordsOf(name);
-  if (holdsOne(words, kOther)) return Role::Other;
+  const Role role = roleOfWords(wordsOf(name));
   const char letter = matterportLetter(name);
-  if (holdsDepth(words) || beginsWith(name, 'd') || letter == 'd') return Role::Depth;
-  return holdsOne(words, kColor) || beginsWith(name, 'r') || letter == 'i' ? Role::Color : Role::Unsaid;
+  if (role == Role::Other || role == Role::Depth) return role;
+  if (beginsWith(name, 'd') || letter == 'd') return Role::Depth;
+  const Role joined = roleOfWords(partsOf(name));
+  if (joined == Role::Depth) return Role::Depth;
+  return role == Role::Color || beginsWith(name, 'r') || letter == 'i' ? Role::Color : joined;
 }
 
 std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& names) {
@@ -112,6 +143,10 @@ std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& 
 }
 
 std::string keyOf(std::string_view name) {
+  const auto saysRole = [](std::string_view word) {
+    const Role role = roleOfWords(partsOf(word));
+    return role == Role::Depth || role == Role::Color;
+  };
   const std::string_view stem = stemOf(name);
   const auto kindOf = [](unsigned char c) {  // beyond ASCII all are letters
     return std::isalpha(c) != 0 || c >= 0x80 ? 2 : std::isdigit(c) != 0 ? 1 : 0;
@@ -120,8 +155,12 @@ std::string keyOf(std::string_view name) {
   for (std::size_t from = 0, end = 0; from < stem.size(); from = end) {
     const int kind = kindOf(static_cast<unsigned char>(stem[from]));
     while (end < stem.size() && kindOf(static_cast<unsigned char>(stem[end])) == kind) ++end;
-    const std::string part = lowerCase(stem.substr(from, end - from));
-    if (kind != 0 && !holdsDepth({part}) && !holdsOne({part}, kColor)) key += part + ' ';
+    const std::string_view part = stem.substr(from, end - from);
+    if (kind == 0) continue;
+    const bool joined = kind == 2 && saysRole(part);
+    for (const std::string& word : joined ? wordsOf(partedAtCapitals(part)) : std::vector{lowerCase(part)}) {
+      if (!saysRole(word)) key += word + ' ';
+    }
   }
   return key;
 }

@@ -18,7 +18,8 @@ enum class Role : std::uint8_t {
   Other,  // a mask, a label, an infrared picture, ..
 };
 
-// By the words in `name`, which anything but letters parts; "d-12.pgm" and "r-12.ppm" are depth and colour.
+// By the words in `name`, which anything but letters parts; "d-12.pgm" and "r-12.ppm" are depth and colour. Where these
+// words say nothing, by those that they join: "KinectDepth", "depthImages", "rgbframes".
 [[nodiscard]] Role roleOf(std::string_view name);
 
 // The names by their roles. Where all of them say depth, as "depth_guess_rgb.jpg" and "depth_guess_depth.jpg", only the
