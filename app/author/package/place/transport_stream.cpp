@@ -82,12 +82,15 @@ class TransportStream final : public FilmPlace {
  private:
   // A receiver that does not answer must not keep the program from its end.
   [[nodiscard]] int openAddress() {
-    const auto isCancelled = [](void* flag) {
-      return (flag != nullptr && static_cast<const std::atomic<bool>*>(flag)->load()) ? 1 : 0;
+    const auto isCancelled = [](void* stream) {
+      const std::atomic<bool>* const flag = static_cast<TransportStream*>(stream)->ends_opening_;
+      return flag != nullptr && *flag ? 1 : 0;
     };
-    const AVIOInterruptCB interrupt{.callback = isCancelled,
-                                    .opaque = const_cast<std::atomic<bool>*>(CancelsAnswers::flag())};
-    return avio_open2(&out_, url_.c_str(), AVIO_FLAG_WRITE, &interrupt, nullptr);
+    const AVIOInterruptCB interrupt{.callback = isCancelled, .opaque = this};
+    ends_opening_ = CancelsAnswers::flag();
+    const int code = avio_open2(&out_, url_.c_str(), AVIO_FLAG_WRITE, &interrupt, nullptr);
+    ends_opening_ = nullptr;  // a signal ends the film, and what was made of it is still sent
+    return code;
   }
 
   static constexpr const char* kLineFailed =
@@ -138,6 +141,7 @@ class TransportStream final : public FilmPlace {
   bool live_ = false;
   AtomicFile place_;
   std::string url_;
+  const std::atomic<bool>* ends_opening_ = nullptr;
   AVIOContext* out_ = nullptr;
   AVIOContext* packets_ = nullptr;  // what the muxer writes to
   TsDepthSignal signal_{VideoCodec::H264};
