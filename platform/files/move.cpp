@@ -36,7 +36,10 @@ int moveToNew(const std::string& from, const std::string& to) noexcept {
   if (!refusesFlags(moved)) return moved;
   struct stat file{};
   if (::lstat(from.c_str(), &file) != 0) return errno;
-  if (const int taken = claim(to, S_ISDIR(file.st_mode)); taken != 0) return taken;
+  const bool folder = S_ISDIR(file.st_mode);
+  if (!folder && ::link(from.c_str(), to.c_str()) == 0) return ::unlink(from.c_str()) == 0 ? 0 : errno;
+  if (!folder && errno == EEXIST) return EEXIST;
+  if (const int taken = claim(to, folder); taken != 0) return taken;
   const int failed = renamed(from, to, 0);
   if (failed != 0) std::remove(to.c_str());
   return failed;
@@ -45,13 +48,16 @@ int moveToNew(const std::string& from, const std::string& to) noexcept {
 int exchange(const std::string& from, const std::string& to) {
   const int moved = renamed(from, to, RENAME_EXCHANGE);
   if (!refusesFlags(moved)) return moved;
-  const std::string aside = from + ".old";
-  if (const int failed = renamed(to, aside, 0); failed != 0) return failed;
-  if (const int failed = renamed(from, to, 0); failed != 0) {
-    std::rename(aside.c_str(), to.c_str());
-    return failed;
+  const std::string aside = to + ".relievo-old";
+  if (const int failed = moveToNew(to, aside); failed != 0) return failed;
+  int failed = renamed(from, to, 0);
+  if (failed == 0) {
+    failed = renamed(aside, from, 0);
+    if (failed == 0) return 0;
+    std::rename(to.c_str(), from.c_str());
   }
-  return renamed(aside, from, 0);
+  std::rename(aside.c_str(), to.c_str());
+  return failed;
 }
 
 }  // namespace relievo
