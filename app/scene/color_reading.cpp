@@ -63,10 +63,16 @@ void ColorReading::keepApart(const CodeSet& invalid, double steps) noexcept {
   const auto pieces = static_cast<std::size_t>(curve_->pieces());
   for (int code = 0; code <= static_cast<int>(steps); ++code) {
     if (!invalid.contains(static_cast<std::uint32_t>(code))) continue;
-    const auto piece = static_cast<std::size_t>(curve_->pieceAt(static_cast<float>(code / steps))) + 1;
-    // The corners before and behind it are counted after the pieces.
-    for (const std::size_t number : {piece, pieces + piece - 1, pieces + piece}) {
-      if (number <= table_->pieceCount()) apart_ |= std::uint64_t{1} << number;
+    // A position of up to the next code counts as this one.
+    const auto first = static_cast<std::size_t>(curve_->pieceAt(static_cast<float>(code / steps))) + 1;
+    const auto behind = std::nextafter(static_cast<float>((code + 1) / steps), 0.0F);
+    const auto last = static_cast<std::size_t>(curve_->pieceAt(std::min(behind, 1.0F))) + 1;
+    for (std::size_t piece = first; piece <= last; ++piece) {
+      apart_ |= std::uint64_t{1} << piece;
+      // The corners before and behind it are counted after the pieces.
+      for (const std::size_t corner : {pieces + piece - 1, pieces + piece}) {
+        if (corner > pieces && corner <= table_->pieceCount()) apart_ |= std::uint64_t{1} << corner;
+      }
     }
   }
 }

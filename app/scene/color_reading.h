@@ -43,7 +43,7 @@ class ColorReading {
     const auto [place, codes] = samples_.codesAt(c, line);
     const std::uint8_t piece = table_->piecesOfSamples()[place];
     if (piece == ColorTable::kUnsure) return unsureShareAt(c, r);
-    return static_cast<double>(table_->shareOf(piece, codes, samples_.scale()));
+    return std::clamp(static_cast<double>(table_->shareOf(piece, codes, samples_.scale())), 0.0, 1.0);
   }
   // The codes in `invalid`, of 0 to `steps` on the curve, stand for holes: samples near them are read one by one.
   void keepApart(const CodeSet& invalid, double steps) noexcept;

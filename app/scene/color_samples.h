@@ -55,7 +55,7 @@ class ColorSamples {
       return codeAt(i, c, line) + codeAt(i, c + 1, line) + codeAt(i, c, below) + codeAt(i, c + 1, below);
     };
     const auto chromaOf = [&](std::size_t i) RELIEVO_RT {
-      if (shift_x_ == 0 && shift_y_ == 0) return sumOf(i);
+      if (shift_x_ == 0) return sumOf(i);
       return 2 * (codeAt(i, c >> shift_x_, line) + codeAt(i, c >> shift_x_, below));
     };
     return codesOf(sumOf(0), chromaOf(1), chromaOf(2), bits_ + 2);

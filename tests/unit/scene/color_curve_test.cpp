@@ -234,7 +234,17 @@ TEST(HueOverYuv, ABlockAtAHoleHasTheHeightOfWhatIsKnown) {
   }
 }
 
-// Samples of a row are read side by side; at edges, in black and at the seam one by one.
+// Codecs ring: black that is a little yellow lies before the curve's beginning.
+TEST(HueOverYuv, ColoursBeyondTheEndsOfTheCurveAreThoseOfItsEnds) {
+  const Film film{.cols = 48, .rows = 32, .color = [](int c, int) { return Rgb{0, 0, c < 20 ? -0.02 : 0.6}; }};
+  const Frame frame = film.frame();
+  const DepthCalibration kinect{.code = DepthCode::Kinect, .invalid = CodeSet(CodeSet::Range{0, 8})};
+  const auto field = HeightField::make(frame, kinect, kUnit).value();
+  EXPECT_TRUE(std::isnan(field.heightMm(5, 5)));
+  EXPECT_TRUE(std::isnan(field.meanHeight(4, 4, {8, 8, 16})));
+}
+
+// Columns in any order, with edges, black and the seam among them.
 TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
   const Film film{.color = [](int c, int r) { return c < 9 ? Rgb{} : hue(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
   const Frame frame = film.frame();
