@@ -22,7 +22,7 @@ constexpr double kClips = 3;                // deviations of the means of frames
 // The slope, in b/h, that a smoothing of blocks of the size h loses where b is the fourth difference of such blocks.
 // Blocks under a cubic B-spline that keeps curvature (ControlGrid) pass sinc(kh/2)^5 (1 + 5/12 (1 - cos kh)) of a wave
 // of the wavenumber k, 1 - 47/1152 (kh)^4 of a long one, and b is sinc(kh/2) (2 - 2 cos kh)^2 of it: .10, .084 and .071
-// b/h are lost with 3, 3.5 and 4 blocks to a wave, which the wide level is chosen to have, and .20, .17 and .14 b/h
+// b/h are lost with 3, 3.5 and 4 blocks to a wave, which the wide level is chosen to have, and .22, .17 and .14 b/h
 // with 2.1, 2.3 and 2.5, as waves may have on a broad level. Of smaller blocks the difference is smaller by the third
 // power of their size or more.
 constexpr double kSlopeOfWaves = 0.1, kSlopeOfSwells = 0.2;
