@@ -153,7 +153,10 @@ void FilmFeed::chooseTracks(std::optional<std::size_t> sound, std::optional<std:
   request_.sound = sound;
   request_.words = words;
   request_.tracks_due = true;
-  if (changesWords()) words_.clear();
+  if (changesWords()) {
+    words_.clear();
+    request_.words_due = true;
+  }
   wake_.notify_all();
 }
 

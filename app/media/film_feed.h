@@ -123,7 +123,7 @@ class FilmFeed {
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
   void workRead(std::uint64_t generation);
   void workReopen();
-  void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words);
+  void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words, bool words_due);
   [[nodiscard]] bool changesWords() const { return request_.tracks_due && request_.words != info_.words; }
   void takeWords(std::deque<Subtitle> words);
   [[nodiscard]] std::deque<Subtitle> readWords();
@@ -150,6 +150,7 @@ class FilmFeed {
     MediaTime target;
     Duration key_step{0};
     bool tracks_due = false, format_due = false;
+    bool words_due = false;  // those of before are gone, also where the same track is chosen again
     std::optional<std::size_t> sound, words;
     bool leave_out = false;
     std::optional<MediaTime> until;  // once

@@ -30,11 +30,12 @@ bool FilmFeed::work() {
   interrupted_ = false;
   if (tracksDue()) {
     const bool chooses = std::exchange(request_.tracks_due, false);
+    const bool words_due = std::exchange(request_.words_due, false);
     const auto format = std::exchange(request_.format_due, false) ? request_.options.sound : std::nullopt;
     const auto sound = request_.sound, words = request_.words;
     lock.unlock();
     if (format) reader_.setSoundFormat(*format);
-    if (chooses) workChoose(sound, words);
+    if (chooses) workChoose(sound, words, words_due);
   } else if (task == State::Opening) {
     const SourceOptions options = request_.options;
     lock.unlock();
@@ -90,14 +91,12 @@ void FilmFeed::workOpen(const SourceOptions& options, std::uint64_t generation) 
 }
 
 // The reader does not know the subtitle files that were added. Such a file is read once, when it is chosen.
-void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words) {
+void FilmFeed::workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words, bool words_due) {
   const bool is_added = words && *words >= reader_.info().subtitles.size();
   reader_.chooseTracks(sound, is_added ? std::nullopt : words);
   Result<std::deque<Subtitle>> read = readWords();
-  const auto before = info();
-  const auto& tracks = before.subtitles;
-  if (is_added && words != before.words && *words < tracks.size())
-    read = readSubtitleFile(tracks[*words].path, backends_);
+  const auto tracks = info().subtitles;
+  if (is_added && words_due && *words < tracks.size()) read = readSubtitleFile(tracks[*words].path, backends_);
   const std::scoped_lock lock(mutex_);
   if (counts_.at_work != counts_.film) return;
   auto subtitles = std::move(info_.subtitles);

@@ -69,6 +69,9 @@ TEST_F(FilmFeedWords, OfAFileAreReadOnceWhateverSoundIsChosenThen) {
   choose(0, std::nullopt);
   choose(0, 0);
   EXPECT_EQ(takeWords(), 3) << "chosen again, they are read again";
+  feed_->chooseTracks(0, std::nullopt);
+  choose(0, 0);
+  EXPECT_EQ(takeWords(), 3) << "also if the reader was busy in between";
 }
 
 TEST_F(FilmFeedWords, OfAFileThatIsRefusedAreNotChosen) {
