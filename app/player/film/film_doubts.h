@@ -21,16 +21,18 @@ class FilmDoubts {
   void begin(const FilmReading& reading) {
     // Of a near end that is taken as in most films, a viewer sees and feels nothing wrong.
     std::vector<std::string> doubts(reading.doubts.begin() + (reading.near_end_is_usual ? 1 : 0), reading.doubts.end());
-    for (const std::string& doubt : doubts) {
-      if (std::ranges::find(told_, doubt) == told_.end()) waiting_.push_back(doubt);
+    const auto isGone = [&](const std::string& told) { return std::ranges::find(doubts, told) == doubts.end(); };
+    if (!doubts.empty()) std::erase_if(told_, isGone);
+    for (std::string& doubt : doubts) {
+      if (std::ranges::find(told_, doubt) == told_.end()) waiting_.push_back(std::move(doubt));
     }
-    if (!doubts.empty()) told_ = std::move(doubts);
   }
   // The next one to be shown.
   [[nodiscard]] std::optional<std::string> next() {
     if (waiting_.empty()) return std::nullopt;
     std::optional<std::string> doubt(std::move(waiting_.front()));
     waiting_.pop_front();
+    told_.push_back(*doubt);
     return doubt;
   }
   // The film is closed: returns what must not stand over the next one.
