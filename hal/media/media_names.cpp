@@ -65,8 +65,10 @@ std::vector<std::string> wordsOf(std::string_view name) {
 }
 
 bool saysDepth(std::string_view path) {
-  return std::ranges::any_of(wordsOf(stemOf(path.substr(path.rfind('/') + 1))), [](const std::string& word) {
-    return std::ranges::find(kDepthWords, word) != kDepthWords.end();
+  const std::string_view name = stemOf(path.substr(path.rfind('/') + 1));
+  const bool is_title = name.find_first_of(" .") != name.npos;
+  return std::ranges::any_of(wordsOf(name), [&](const std::string& word) {
+    return std::ranges::find(kDepthWords, word) != kDepthWords.end() && !(is_title && word == "depths");
   });
 }
 

@@ -20,7 +20,8 @@ TEST(NaturalOrder, NumbersCountAndOtherScriptsComeLast) {
 TEST(Names, SayDepthByAWord) {
   for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm", "depths.mkv", "a-DISP.png"})
     EXPECT_TRUE(saysDepth(name)) << name;
-  for (const char* name : {"clip.mp4", "depth/1.png", "outdepth.mkv", "display.mp4", "1.depth"})
+  for (const char* name : {"clip.mp4", "depth/1.png", "outdepth.mkv", "display.mp4", "1.depth",
+                           "The Lower Depths (1936).mkv", "The.Lower.Depths.mkv"})
     EXPECT_FALSE(saysDepth(name)) << name;
 }
 
