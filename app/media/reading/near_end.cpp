@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/media/reading/near_end.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/media/reading/depth_doubts.h"
+#include "app/media/reading/film_reading.h"
+#include "platform/print.h"
+
+namespace relievo {
+namespace {
+
+// The part of a calibration that decides which end is near.
+const CalibrationPart& nearEndOf(const CalibrationChoice& choice) {
+  const auto part = [&choice](const char* key) -> const CalibrationPart& {
+    return *std::ranges::find(choice.parts, key, &CalibrationPart::key);
+  };
+  const CalibrationPart &unit = part("unit"), &law = part("law"), &polarity = part("polarity");
+  if (unit.value != "none") return unit;
+  const bool told = polarity.origin == CalibrationOrigin::Default && certaintyOf(law.origin) == Certainty::Said;
+  return told ? law : polarity;
+}
+
+bool isColorMap(DepthCode code) noexcept {
+  return code != DepthCode::Luma && code != DepthCode::Hue;
+}
+
+Result<CalibrationChoice> choose(const DepthClues& clues, const Frame& look, const CalibrationLayers& layers) {
+  auto choice = chooseCalibration(layers, look, clues.code);
+  if (choice) markGuesses(clues.tags, *choice);
+  return choice;
+}
+
+const char* otherEndOf(const DepthCalibration& calibration) noexcept {
+  return calibration.polarity == DepthPolarity::NearIsHigh ? "near-low" : "near-high";
+}
+
+// How much nearer the view is below than above. Black that may be a hole says nothing of that.
+double nearerBelow(const Frame& look, DepthCalibration calibration, const DepthReading& read) {
+  if (!read.black.empty()) calibration.invalid = CodeSet::parse(read.black).value_or(CodeSet());
+  return nearerBelow(look, calibration);
+}
+
+}  // namespace
+
+Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
+                                        const DepthReading& read) {
+  auto choice = choose(clues, look, layers);
+  const bool open = choice && isColorMap(clues.code) && nearEndOf(*choice).origin == CalibrationOrigin::Default;
+  if (!open || nearerBelow(look, choice->calibration, read) >= -kClearlyNearer) return choice;
+  layers.pictures["polarity"] = otherEndOf(choice->calibration);
+  return choose(clues, look, layers);
+}
+
+NearEndDoubt doubtNearEnd(const CalibrationChoice& choice, bool is_known, const Frame& look, DepthReading& read) {
+  const DepthCalibration& calibration = choice.calibration;
+  const CalibrationOrigin by = nearEndOf(choice).origin;
+  if (certaintyOf(by) == Certainty::Said || isLevel(look, calibration)) return {};
+  const double nearer = nearerBelow(look, calibration, read);
+  const bool by_view = isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture;
+  const bool upside_down = nearer < -kClearlyNearer;
+  if (by_view || certaintyOf(by) == Certainty::Assumed) {
+    return {nearEndLine(calibration, nearer, read.black), !upside_down};
+  }
+  if (!read.unsure && (!upside_down || is_known)) return {};
+  if (read.offer.empty() && !calibration.unit_mm) {
+    read.offer = print("if the other end is near: --calibration polarity=%s", otherEndOf(calibration));
+  }
+  if (read.offer.empty()) return {};
+  const char* const view = upside_down ? "read so, the view is nearer above than below, as few are: " : "";
+  return {view + std::exchange(read.offer, ""), false};
+}
+
+}  // namespace relievo
