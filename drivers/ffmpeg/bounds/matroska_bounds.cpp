@@ -74,10 +74,7 @@ class Lists {
   const char* exceeded() {
     const auto header = elementAt(file_, 0);
     if (!header || header->id != kHeader) return nullptr;
-    const auto segment = elementAt(file_, header->data + header->bytes);
-    if (!segment || segment->id != kSegment) return nullptr;
-    segment_ = segment->data;
-    for (auto element = elementFrom(segment_); element; element = next(*element)) note(*element);
+    for (auto element = elementFrom(behind(*header)); element; element = next(*element)) note(*element);
     for (std::size_t i = 0; i < sought_.size(); ++i) {
       for (auto element = elementAt(file_, sought_[i]); element; element = next(*element)) {
         note(*element);
@@ -88,9 +85,10 @@ class Lists {
   }
 
  private:
-  // What is in an element without a size stands behind it.
+  // What is in the segment, or in an element without a size, stands behind it.
   static std::uint64_t behind(const Element& element) noexcept {
-    return element.data + (element.bytes == kUnknown ? 0 : element.bytes);
+    const bool within = element.id == kSegment || element.bytes == kUnknown;
+    return element.data + (within ? 0 : element.bytes);
   }
 
   // None at the first cluster.
@@ -99,7 +97,7 @@ class Lists {
     return elementFrom(std::exchange(damage_, std::nullopt).value_or(behind(element)));
   }
 
-  // As FFmpeg goes on: behind what is no element, with the next list or cluster.
+  // As FFmpeg goes on: behind what is no element, with the next list or cluster, even if the segment has not begun.
   std::optional<Element> elementFrom(std::uint64_t place) const {
     if (const auto element = elementAt(file_, place)) return element;
     constexpr std::size_t kIdBytes = 4;
@@ -124,6 +122,7 @@ class Lists {
   void note(const Element& element) {
     if (element.id == kCluster) return;
     if (++looked_at_ > kMostElements) return exceed(kTooManyElements);
+    if (element.id == kSegment) return void(segment_ = element.data);
     const auto kind = std::ranges::find(kinds_, element.id, &Kind::id);
     if (element.bytes == kUnknown) {
       sizeless_ = true;
@@ -214,7 +213,7 @@ class Lists {
   Kind loose_{0, 4 * kMiB, kTooManyElements};  // what is in elements without a size
   bool sizeless_ = false;                      // there was such an element
   std::optional<std::uint64_t> damage_;        // the place in a list where it is not one
-  std::uint64_t segment_ = 0;
+  std::uint64_t segment_ = 0;                  // as FFmpeg takes it if damage hides where it begins
   std::vector<std::uint64_t> sought_, measured_;
   int looked_at_ = 0, tags_ = 0;
   const char* exceeded_ = nullptr;

@@ -77,6 +77,20 @@ class MatroskaFilm : public testing::Test {
     return whole.size() + before - segment(whole);
   }
 
+  // A copy of such a film with something between its header and its segment.
+  std::string within(const std::string& film, const std::string& more) {
+    const std::string whole = test::contentOf(film);
+    const std::size_t begin = segment(whole) - 12;  // an id and its size
+    writeFile(folder_ / "within.mkv", whole.substr(0, begin) + more + whole.substr(begin));
+    return folder_ / "within.mkv";
+  }
+  std::string withoutHeaderSize(const std::string& film) {
+    const std::string whole = test::contentOf(film), id = whole.substr(0, 4);
+    const std::size_t size_bytes = whole[4] == '\1' ? 8 : 1;  // as FFmpeg writes it
+    writeFile(folder_ / "sizeless.mkv", id + "\x01" + std::string(7, '\xFF') + whole.substr(4 + size_bytes));
+    return folder_ / "sizeless.mkv";
+  }
+
  private:
   static std::size_t segment(const std::string& whole) { return whole.find("\x18\x53\x80\x67") + 12; }
   const TemporaryFolder folder_;
@@ -160,6 +174,16 @@ TEST_F(MatroskaFilm, NothingHidesBehindDamage) {
   EXPECT_EQ(openErrorOf(with(element(kAttachments, kAttachment + garbage + many))).code, ErrorCode::Unsupported);
   const std::string long_info = element("\x15\x49\xA9\x66", std::string(1'100'000, '\0'));
   EXPECT_EQ(openErrorOf(with(long_info)).code, ErrorCode::Unsupported) << "what is in it is not looked at";
+}
+
+// FFmpeg opens each of them.
+TEST_F(MatroskaFilm, NothingHidesBehindWhatStandsBeforeItsSegment) {
+  for (const std::string& between : {kVoid, std::string(50, '\0'), kVoid + std::string(50, '\0')}) {
+    EXPECT_TRUE(makeFfmpegSource()->open(within(with(tags(100)), between)));
+    EXPECT_EQ(openErrorOf(within(with(tags(5001)), between)).code, ErrorCode::Unsupported);
+  }
+  EXPECT_TRUE(makeFfmpegSource()->open(withoutHeaderSize(with(tags(100)))));
+  EXPECT_EQ(openErrorOf(withoutHeaderSize(with(tags(5001)))).code, ErrorCode::Unsupported);
 }
 
 // Some programs list all clusters.
