@@ -9,7 +9,7 @@
 namespace relievo::ffmpeg {
 namespace {
 
-constexpr std::uint8_t kMark = 0xFF, kStartOfImage = 0xD8, kEndOfImage = 0xD9, kStartOfScan = 0xDA;
+constexpr std::uint8_t kMark = 0xFF, kStartOfImage = 0xD8, kEndOfImage = 0xD9, kStartOfScan = 0xDA, kTables = 0xDB;
 constexpr int kMostFields = 2;
 
 class Markers {
@@ -37,11 +37,26 @@ class Markers {
     return next() == kStartOfImage && place() <= here + kPadding;
   }
 
-  // Passes over the data of a marker that states its length.
-  void skip() {
-    const std::uint64_t begin = place();
-    const auto high = byte(), low = byte();
-    if (high && low) goTo(begin + std::max<std::uint64_t>(2, *high << 8U | *low));
+  // Passes over the data of a marker that states its length, but not if it states more than there is, or less than the
+  // least that may be, as FFmpeg does.
+  void skip(std::uint64_t least) {
+    const std::uint64_t begin = place(), bytes = length();
+    const std::uint64_t end = begin + bytes;
+    std::array<std::uint8_t, 1> last{};
+    if (bytes < least) return;
+    if (end <= read_ || bytes_(end - 1, last) == last.size()) goTo(end);
+  }
+
+  // Passes over as many tables as FFmpeg reads: it goes on behind the last whole one.
+  void skipTables() {
+    std::int64_t rest = static_cast<std::int64_t>(length()) - 2;
+    while (rest >= 65) {
+      const auto kind = byte();
+      if (!kind) return;
+      const int bytes = *kind >> 4 == 0 ? 64 : 128;  // of one byte each, or two
+      goTo(place() + static_cast<std::uint64_t>(bytes));
+      rest -= 1 + bytes;
+    }
   }
 
  private:
@@ -50,6 +65,12 @@ class Markers {
   std::optional<std::uint8_t> byte() {
     if (at_ == end_ && !fill()) return std::nullopt;
     return *at_++;
+  }
+
+  // Of a marker's data, itself included.
+  std::uint64_t length() {
+    const auto high = byte(), low = byte();
+    return high && low ? std::max<std::uint64_t>(2, *high << 8U | *low) : 2;
   }
 
   void goTo(std::uint64_t to) {
@@ -75,10 +96,18 @@ class Markers {
   std::uint64_t read_ = 0;  // the place behind the piece
 };
 
-// What FFmpeg reads by its length: frames, tables, restart intervals, applications' data and comments.
+bool ofAnApplication(std::uint8_t marker) noexcept {
+  return marker >= 0xE0 && marker <= 0xEF;
+}
+
+// What FFmpeg reads by its length: frames that it decodes, Huffman tables, restart intervals, applications' data and
+// comments. Of other frames it reads only the marker.
 bool statesLength(std::uint8_t marker) noexcept {
-  return (marker >= 0xC0 && marker <= 0xCF) || marker == 0xDB || marker == 0xDD || (marker >= 0xE0 && marker <= 0xEF) ||
-         marker == 0xFE;
+  return (marker >= 0xC0 && marker <= 0xC4) || marker == 0xDD || ofAnApplication(marker) || marker == 0xFE;
+}
+
+bool beginsFrame(std::uint8_t marker) noexcept {
+  return marker >= 0xC0 && marker <= 0xC3;
 }
 
 }  // namespace
@@ -86,10 +115,16 @@ bool statesLength(std::uint8_t marker) noexcept {
 const char* exceededJpegBound(const Readable& packet) {
   Markers markers(packet);
   int scans = 0, fields = 0;
+  bool framed = false;  // FFmpeg passes over an end before any frame
   for (auto marker = markers.next(); marker; marker = markers.next()) {
     if (*marker == kStartOfScan && ++scans > kMostScans) return kTooManyScans;
-    if (*marker == kEndOfImage && (++fields == kMostFields || !markers.begins())) return nullptr;
-    if (statesLength(*marker)) markers.skip();
+    framed = framed || beginsFrame(*marker);
+    if (*marker == kEndOfImage && framed && (++fields == kMostFields || !markers.begins())) return nullptr;
+    if (*marker == kTables) {
+      markers.skipTables();
+    } else if (statesLength(*marker)) {
+      markers.skip(ofAnApplication(*marker) ? 6 : 2);
+    }
   }
   return nullptr;
 }

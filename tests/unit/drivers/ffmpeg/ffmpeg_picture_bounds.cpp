@@ -187,5 +187,48 @@ TEST_F(AJpeg, ScansOfAPreviewInItsHeaderAndOfWhatFollowsItAreNotCounted) {
   EXPECT_EQ(openErrorOf(file(jpeg(400) + jpeg(400))).code, ErrorCode::Unsupported) << "two fields";
 }
 
+// FFmpeg reads on behind the marker of a frame that it does not decode, whatever length that states.
+TEST_F(AJpeg, ScansDoNotHideInAFrameOfAnUnknownKind) {
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(file(jpeg(1))));
+  const std::string start = begin().substr(0, 2);
+  for (const char* marker : {"\xFF\xC5", "\xFF\xC8", "\xFF\xCF"}) {
+    const auto hidden = [&](int count) { return start + marker + "\xFF\xFF" + jpeg(count).substr(2); };
+    EXPECT_EQ(damagedOf(source->streams()[0], hidden(500)), 0u) << "FFmpeg does not decode it";
+    EXPECT_EQ(damagedOf(source->streams()[0], hidden(501)), 1u);
+    EXPECT_EQ(openErrorOf(file(hidden(501))).code, ErrorCode::Unsupported);
+  }
+}
+
+// It reads on behind the length of a comment that is longer than the file, and behind the last whole table.
+TEST_F(AJpeg, ScansDoNotHideInALengthThatIsNotTrue) {
+  using namespace std::string_literals;
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(file(jpeg(1))));
+  const std::string start = begin().substr(0, 2);
+  for (const std::string& marker : {"\xFF\xFE\xFF\xFF"s, "\xFF\xE1\xFF\xFF"s, "\xFF\xDB\0\x42"s}) {
+    const auto hidden = [&](int count) { return start + marker + jpeg(count).substr(2); };
+    EXPECT_EQ(damagedOf(source->streams()[0], hidden(500)), 0u) << "FFmpeg does not decode it";
+    EXPECT_EQ(damagedOf(source->streams()[0], hidden(501)), 1u);
+  }
+  std::string parts, short_ones;  // five scans in each of 101 lists without a table; markers in too short data
+  for (int i = 0; i < 101; ++i) parts += "\xFF\xDB\0\x42"s + scans(5);
+  for (int i = 0; i < 501; ++i) short_ones += "\xFF\xE1\0\5\0"s + scans(1);
+  EXPECT_EQ(damagedOf(source->streams()[0], jpeg(1, short_ones)), 1u);
+  EXPECT_EQ(damagedOf(source->streams()[0], jpeg(1, parts)), 1u);
+}
+
+TEST_F(AJpeg, AnEndBeforeAnyFrameIsNone) {
+  using namespace std::string_literals;
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(file(jpeg(1))));
+  for (const std::string& ends : {"\xFF\xD8\xFF\xD9"s, "\xFF\xD8\xFF\xD9\xFF\xD8\xFF\xD9"s,
+                                  "\xFF\xD8\xFF\xD9"s + segment('\xFE', std::string(40'000, 'x'))}) {
+    EXPECT_EQ(damagedOf(source->streams()[0], ends + jpeg(500)), 0u) << "FFmpeg does not decode it";
+    EXPECT_EQ(damagedOf(source->streams()[0], ends + jpeg(501)), 1u);
+    EXPECT_EQ(openErrorOf(file(ends + jpeg(501))).code, ErrorCode::Unsupported);
+  }
+}
+
 }  // namespace
 }  // namespace relievo
