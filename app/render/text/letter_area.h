@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// What the letters and drawings of a line cover with their outlines, beside one another, in squares as high as the
-// screen. Transforms count with their end; the perspective of \frx and \fry does not count.
+// What the letters, drawings and clips of a line cover with their outlines, beside one another, in squares as high as
+// the screen. Transforms count with their end; the perspective of \frx and \fry does not count.
 [[nodiscard]] double letterArea(const ASS_Event& line, const ASS_Track& script);
 
 }  // namespace relievo

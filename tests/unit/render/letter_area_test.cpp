@@ -73,8 +73,44 @@ TEST(LetterArea, AnotherStyleIsTakenByItsName) {
 TEST(LetterArea, OfADrawingItIsToItsFarthestPoint) {
   EXPECT_NEAR(areaOf("{\\p1}m 0 0 l 300 -400 50 50"), 16, 1e-9);
   EXPECT_NEAR(areaOf("{\\p3}m 0 0 l 4e2 0"), 1, 1e-9) << "in quarters of a pixel";
+  EXPECT_NEAR(areaOf("{\\p1e9}m 0 0 l 400 0"), 16, 1e-9) << "a unit of one";
+  EXPECT_NEAR(areaOf("{\\p33}m 0 0 l 400 0"), 16, 1e-9) << "it is shifted by the last five bits of 32";
+  EXPECT_NEAR(areaOf("{\\p0.5}a"), 0.04, 1e-9) << "no drawing";
   EXPECT_NEAR(areaOf("{\\p1\\fscx200}m 0 0 l 100 100{\\p0}a"), 2 + 0.08, 1e-9);
   EXPECT_NEAR(areaOf("{\\p1\\r}m 0 0 l 100 100"), 1, 1e-9) << "it stays one";
+}
+
+TEST(LetterArea, AClipByADrawingCountsAsThatDrawing) {
+  EXPECT_NEAR(areaOf("{\\clip(m 0 0 l 90000 0 90000 20000 0 20000)}a"), 900.0 * 900 + 0.04, 1e-6);
+  EXPECT_NEAR(areaOf("{\\iclip(m 0 0 l 300 0 300 -400)}a"), 16 + 0.04, 1e-9);
+  EXPECT_NEAR(areaOf("{\\clip(3, m 0 0 l 800 0 800 100)}a"), 4 + 0.04, 1e-9) << "in quarters of a pixel";
+  EXPECT_NEAR(areaOf("{\\clip(m 0 0 l 400 0 \\,,,)}a"), 16 + 0.04, 1e-9) << "behind a backslash no argument ends";
+  EXPECT_NEAR(areaOf("{\\clip(, ,,m 0 0 l 400 0)}a"), 16 + 0.04, 1e-9) << "empty arguments do not count";
+  EXPECT_NEAR(areaOf("{\\clip(1e9,m 0 0 l 400 0)}a"), 16 + 0.04, 1e-9) << "a unit of one";
+  EXPECT_NEAR(areaOf("{\\clip(0,0,90000,90000)}a"), 0.04, 1e-9) << "a rectangle";
+  EXPECT_NEAR(areaOf("{\\iclip(0,0,90000,90000)\\fs40}a"), 0.16, 1e-9) << "what follows it";
+}
+
+TEST(LetterArea, ABracketThatOpensNoBlockIsALetter) {
+  EXPECT_NEAR(areaOf("{\\fs500}{Cd"), 3 * 25, 1e-9) << "it is not closed";
+  EXPECT_NEAR(areaOf("{"), 0.04, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs500}a{"), 2 * 25, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs500}\\{Cd}"), 5 * 25, 1e-9) << "behind a backslash, which counts, too";
+  EXPECT_NEAR(areaOf("{\\p1}m 0 0 l 100 100\\{\\p0}a"), 1 + 0.04, 1e-9) << "not in a drawing";
+}
+
+TEST(LetterArea, ASizeOfNothingOrLessIsTheStyles) {
+  EXPECT_NEAR(areaOf("{\\fs0}a", "Huge"), 50, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs-10}a", "Huge"), 50, 1e-9) << "ten tenths less";
+  EXPECT_NEAR(areaOf("{\\fs-15}a", "Huge"), 50, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs-5}a"), 0.01, 1e-9) << "half of it";
+  EXPECT_NEAR(areaOf("{\\t(0,500,\\fs0)}a", "Huge"), 50, 1e-9);
+}
+
+TEST(LetterArea, TagsInTheBracketsOfAnotherTagAreNone) {
+  EXPECT_NEAR(areaOf("{\\fs500\\pos(1,2\\fs10)}a"), 25, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs500\\(fs10)}a"), 25, 1e-9);
+  EXPECT_NEAR(areaOf("{\\fs500\\t (0,500,\\fs10)}a"), 25, 1e-9) << "but in those of a transform";
 }
 
 }  // namespace
