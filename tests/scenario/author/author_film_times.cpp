@@ -95,7 +95,8 @@ TEST_F(AuthorFilm, LetsTheDepthEndEarlier) {
   EXPECT_EQ(summary.totals.color.frames, 30u);
   EXPECT_EQ(summary.totals.depth.frames, 10u);
   EXPECT_THAT(summary.notes,
-              ElementsAre(HasSubstr("20 colour pictures have no depth"), HasSubstr("of the depth is one code")));
+              ElementsAre(HasSubstr("20 colour pictures have no depth"),
+                          HasSubstr("the depth lasts 0.3 s, the colour 1.0 s"), HasSubstr("of the depth is one code")));
   const Film film = readFilm(folder_ / "out.mkv");
   EXPECT_FALSE(film.pairs[9].depth.empty());
   EXPECT_TRUE(film.pairs[12].depth.empty());
