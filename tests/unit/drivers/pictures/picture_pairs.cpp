@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/drivers/picture_files.h"
+#include "tests/unit/drivers/pictures/picture_files.h"
 
 namespace relievo {
 namespace {

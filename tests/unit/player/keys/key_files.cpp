@@ -9,7 +9,7 @@
 #include "app/player/control/key_table.h"
 #include "hal/key_names.h"
 #include "tests/support/command_words.h"
-#include "tests/unit/player/pressed_key.h"
+#include "tests/unit/player/keys/pressed_key.h"
 
 namespace relievo {
 namespace {

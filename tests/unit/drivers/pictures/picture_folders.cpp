@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/pictures/recording.h"
-#include "tests/unit/drivers/picture_files.h"
+#include "tests/unit/drivers/pictures/picture_files.h"
 
 namespace relievo {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "tests/support/command_words.h"
-#include "tests/unit/player/pressed_key.h"
+#include "tests/unit/player/keys/pressed_key.h"
 
 namespace relievo {
 namespace {

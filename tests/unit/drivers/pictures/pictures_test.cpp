@@ -7,7 +7,7 @@
 
 #include "drivers/pictures/layouts.h"
 #include "hal/media/media_names.h"
-#include "tests/unit/drivers/picture_files.h"
+#include "tests/unit/drivers/pictures/picture_files.h"
 
 namespace relievo {
 namespace {
