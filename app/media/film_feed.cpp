@@ -57,7 +57,7 @@ void FilmFeed::begin(State state) {
   queue_.clear();
   sound_.forget();
   words_.clear();
-  request_.tracks_due = request_.format_due = false;
+  request_.tracks_due = request_.format_due = request_.words_due = false;
   request_.target = MediaTime{};
   request_.leave_out = false;
   request_.until.reset();
