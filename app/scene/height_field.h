@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include "app/scene/color_reading.h"
+#include "app/scene/color/color_reading.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "app/scene/sampled_block.h"

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <random>
 
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "tests/scenario/player_bench.h"
 #include "tests/support/files.h"

@@ -45,7 +45,7 @@ struct Room {
 };
 const std::vector<Room>& rooms() {
   static const std::vector<Room> all = {
-      {"app/scene", {}},
+      {"app/scene", {"app/scene"}},
       // where the depth is and what it means: of streams and pictures alone
       {"app/media/reading", {"app/media/reading", "app/scene"}},
       {"app/media/registration", {"app/scene"}},  // depth of one camera in the view of another

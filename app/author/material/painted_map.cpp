@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene/color_shares.h"
+#include "app/scene/color/color_shares.h"
 
 namespace relievo {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/lab/chart/csv_table.h"
 #include "app/lab/truth/true_surface.h"
 #include "app/media/reading/picture_look.h"
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 #include "platform/quantile.h"
 
 namespace relievo {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 
 namespace relievo {
 namespace {

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "app/media/reading/depth_reading.h"
-#include "app/scene/color_curve.h"
-#include "app/scene/color_samples.h"
+#include "app/scene/color/color_curve.h"
+#include "app/scene/color/color_samples.h"
 #include "platform/print.h"
 
 namespace relievo {

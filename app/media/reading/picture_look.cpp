@@ -9,7 +9,7 @@
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"
-#include "app/scene/color_shares.h"
+#include "app/scene/color/color_shares.h"
 #include "hal/media/samples.h"
 #include "platform/print.h"
 

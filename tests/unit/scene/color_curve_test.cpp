@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 #include "app/scene/height_field.h"
 #include "hal/media/frame.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads a sample off the curve by its neighbours.
-#include "app/scene/color_reading.h"
+#include "app/scene/color/color_reading.h"
 
 #include <algorithm>
 #include <array>

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "app/scene/color_samples.h"
-#include "app/scene/color_table.h"
+#include "app/scene/color/color_samples.h"
+#include "app/scene/color/color_table.h"
 #include "platform/realtime.h"
 
 namespace relievo {

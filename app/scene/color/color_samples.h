@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "app/scene/color_curve.h"
-#include "app/scene/color_table.h"
+#include "app/scene/color/color_curve.h"
+#include "app/scene/color/color_table.h"
 #include "hal/media/frame.h"
 #include "platform/realtime.h"
 

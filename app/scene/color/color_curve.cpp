@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads eight cells of 2 x 2 samples side by side, by vector extensions that GCC and clang share.
-#include "app/scene/color_tile.h"
+#include "app/scene/color/color_tile.h"
 
 #include <algorithm>
 #include <bit>

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/scene/color_curve.h"
+#include "app/scene/color/color_curve.h"
 #include "platform/realtime.h"
 
 namespace relievo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/scene/color_samples.h"
+#include "app/scene/color/color_samples.h"
 
 #include <algorithm>
 #include <bit>
