@@ -56,6 +56,11 @@ class CodeCount {
 [[nodiscard]] bool isSwapped(const Frame& depth);
 // True for a picture of 16-bit gray whose neighbouring samples are alike only without their upper three bits.
 [[nodiscard]] bool hasConfidence(const Frame& depth);
+// True for bits rotated left by three: multiples of 8 up to 8.19 m, one more up to 16.38 m.
+[[nodiscard]] bool isRotated(const CodeCount& count);
+// True if below the distance stands the number of the person that is seen there, 1 to 6, in some of the pictures.
+// Rotated codes end otherwise than in 0 beyond 8.19 m alone, and there they begin again.
+[[nodiscard]] bool hasPlayers(const CodeCount& count);
 // Where the two bytes of 16-bit codes lie in the red and green of an 8-bit RGB picture whose blue is constant, or the
 // three bytes of 24-bit codes, the lowest in red; or a float's four bytes in RGBA. Returns AsStored unless the lower
 // byte often wraps where the upper one changes by one.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/media/reading/code_count.h"
+#include "app/media/reading/codes/far_background.h"
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
@@ -163,6 +164,39 @@ DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeC
   return read;
 }
 
+// Samples of brightness, of distances or of disparities, as the clues require; may add what they show to `layers`.
+DepthReading readSamples(const DepthClues& clues, const KnownKind* kind, const Frame& look, const CodeCount& count,
+                         CalibrationLayers& layers) {
+  if (isOfStereoCamera(kind) && clues.place.camera) return readDisparities(look, count, *clues.place.camera);
+  if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {
+    return readFloats(look, count, true, layers);
+  }
+  if (look.value_per_code != 0 && !isHeights(kind)) {
+    scaleToCodes(layers, look.value_per_code);
+    return readNumbers(clues, look, count, layers);
+  }
+  if (kind == nullptr && isNamedDisparity(clues, look)) return readNamedDisparity(look, count, layers);
+  return readCodes(look, count, layers, kind);
+}
+
+// A background far behind all else is no part of a shape in distances.
+DepthReading readInFront(const DepthClues& clues, const KnownKind* kind, const Frame& look, const CodeCount& count,
+                         CalibrationLayers& layers) {
+  const bool open = !layers.command_line.contains("invalid") && !layers.side_file.contains("invalid") &&
+                    !says(layers, {"near", "far"}) && (kind == nullptr || kind->inverse.mm == 0);
+  const auto background = open ? farBackground(count) : std::nullopt;
+  if (!background) return readSamples(clues, kind, look, count, layers);
+  CalibrationLayers in_front = layers;
+  DepthReading read = readSamples(clues, kind, look, count.without(CodeSet(*background)), in_front);
+  in_front.pictures = read.settings;
+  const std::string* const unit = in_front.find("unit");
+  if (unit == nullptr || *unit == "none") return readSamples(clues, kind, look, count, layers);
+  in_front.pictures.clear();
+  layers = std::move(in_front);
+  leaveOut(*background, count, layers, read);
+  return read;
+}
+
 // Reads the pictures as the clues require; may add what they show to `layers`.
 DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                           std::span<const Frame> later, const HueSpan& span, CalibrationLayers& layers) {
@@ -176,17 +210,8 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     }
   } else if (clues.code != DepthCode::Luma) {
     read = readColorMap(look, clues.code, layers);
-  } else if (isOfStereoCamera(kind) && clues.place.camera) {
-    read = readDisparities(look, countOf(look, later), *clues.place.camera);
-  } else if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {
-    read = readFloats(look, countOf(look, later), true, layers);
-  } else if (look.value_per_code != 0 && !isHeights(kind)) {
-    scaleToCodes(layers, look.value_per_code);
-    read = readNumbers(clues, look, countOf(look, later), layers);
-  } else if (kind == nullptr && isNamedDisparity(clues, look)) {
-    read = readNamedDisparity(look, countOf(look, later), layers);
   } else {
-    read = readCodes(look, countOf(look, later), layers, kind);
+    read = readInFront(clues, kind, look, countOf(look, later), layers);
   }
   if (clues.live && read.kind == nullptr) {
     read.settings.erase("near");
@@ -257,6 +282,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
   if (!doubt.line.empty()) reading.doubts.push_back(std::move(doubt.line));
+  if (!read.doubt.empty()) reading.doubts.push_back(std::move(read.doubt));
   reading.near_end_is_usual = doubt.usual;
   return meaning;
 }

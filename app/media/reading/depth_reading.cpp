@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/media/reading/codes/far_background.h"
 #include "app/media/reading/float_reading.h"
 #include "platform/print.h"
 
@@ -130,24 +131,6 @@ bool isMeasured(const CodeCount& count) {
   return count.kinds() >= kLeastCodes;
 }
 
-// Bits rotated left by three: multiples of 8 up to 8.19 m, one more up to 16.38 m.
-bool isRotated(const CodeCount& count) {
-  constexpr double kMost = 0.95;
-  return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
-}
-
-// Below the distance stands the number of the person that is seen there, 1 to 6, in some of the pictures. Rotated codes
-// end otherwise than in 0 beyond 8.19 m alone, and there they begin again.
-bool hasPlayers(const CodeCount& count) {
-  constexpr double kBackground = 0.5, kLeast = 1e-3;
-  constexpr std::uint32_t kNearest = 8 * 300, kFarthest = 8 * 7500;  // a Kinect sees from 0.4 m on
-  const CodeCount all = count.together();
-  const double background = all.remainders(8, 0);
-  const auto reach = all.reach(kOutliers, 1, kTop);
-  return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 && reach.low >= kNearest &&
-         reach.high < kFarthest;
-}
-
 // For heights: the range of codes.
 DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   const CodeCount valid = count.without(holes);
@@ -233,10 +216,10 @@ bool definesCodes(const CalibrationLayers& said) {
   return says(said, {"law", "polarity", "range", "codes", "unit"});
 }
 
-const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
+const KnownKind* sensorKind(const Frame& depth, const CodeCount& all) {
   if (hasEqualColors(depth)) {
     const auto gray = inOrder(depth, SampleOrder::EqualColors);
-    return gray ? sensorKind(*gray, count) : nullptr;
+    return gray ? sensorKind(*gray, all) : nullptr;
   }
   if (const SampleOrder packed = packedOrder(depth); packed != SampleOrder::AsStored) {
     const auto ordered = inOrder(depth, packed);
@@ -249,7 +232,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (packed == SampleOrder::GreenBlue) return findKind("gb-packed");
     return findKind(packed == SampleOrder::RedGreen ? "rg-packed" : "gr-packed");
   }
-  if (depth.model != ColorModel::Gray || count.bits() != 16) return nullptr;
+  if (depth.model != ColorModel::Gray || all.bits() != 16) return nullptr;
   if (isSwapped(depth)) {
     const auto ordered = inOrder(depth, SampleOrder::Swapped);
     if (!ordered) return nullptr;
@@ -257,10 +240,12 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& count) {
     if (isRawKinect(of_ordered)) return findKind("nyu-raw");
     if (isMeasured(of_ordered) && isDistances(of_ordered)) return findKind("mm-swapped");
   }
-  if (isRawKinect(count.together())) return findKind("kinect-raw");
-  if (isMeasured(count) && hasConfidence(depth)) return findKind("depth16");
-  if (isMeasured(count) && hasPlayers(count)) return findKind("kinect-players");
-  if (isMeasured(count) && isRotated(count)) return findKind("sun");
+  if (isRawKinect(all.together())) return findKind("kinect-raw");
+  if (isMeasured(all) && hasConfidence(depth)) return findKind("depth16");
+  if (isMeasured(all) && hasPlayers(all)) return findKind("kinect-players");
+  if (isMeasured(all) && isRotated(all)) return findKind("sun");
+  const auto background = farBackground(all);
+  const CodeCount& count = background ? all.without(CodeSet(*background)) : all;
   const std::uint32_t step = count.step();
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");

@@ -20,6 +20,7 @@ struct DepthReading {
   std::string why;                  // one line; empty if the picture revealed nothing
   std::string offer;                // one line; empty if there is no doubt
   bool unsure = false;              // `offer` is as likely
+  std::string doubt;                // one line: what is left out of the pictures' range; empty if nothing is
   std::string black;                // of a film of brightness: the codes that are holes if near is dark; empty if none
 };
 
@@ -44,7 +45,7 @@ struct DepthReading {
 
 // The kind that `readCodes` will find, determined before the samples are put in its order. The unit of distances is
 // determined from all pictures of `count`. Null if nothing is certain.
-[[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& count);
+[[nodiscard]] const KnownKind* sensorKind(const Frame& depth, const CodeCount& all);
 
 // True if a part of the picture, not all of it, is red: in depth coded as a hue, holes or both ends of its range.
 [[nodiscard]] bool hasRed(const Frame& depth);

@@ -163,6 +163,21 @@ bool hasConfidence(const Frame& depth) {
   return as_stored > kClearly * below;
 }
 
+bool isRotated(const CodeCount& count) {
+  constexpr double kMost = 0.95;
+  return count.remainders(8, 1) >= kMost && count.remainders(16, 0) < kMost;
+}
+
+bool hasPlayers(const CodeCount& count) {
+  constexpr double kBackground = 0.5, kLeast = 1e-3, kOutliers = 0.002;
+  constexpr std::uint32_t kNearest = 8 * 300, kFarthest = 8 * 7500;  // a Kinect sees from 0.4 m on
+  const CodeCount all = count.together();
+  const double background = all.remainders(8, 0);
+  const auto reach = all.reach(kOutliers, 1, kTop);
+  return background >= kBackground && background < 1 - kLeast && all.remainders(8, 6) == 1 && reach.low >= kNearest &&
+         reach.high < kFarthest;
+}
+
 bool hasEqualColors(const Frame& depth) noexcept {
   if (depth.model != ColorModel::Rgb || depth.components[0].bits <= 8) return false;
   for (int r = 0; r < depth.height; ++r) {
