@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// The tag of a depth stream of pictures that names its first file.
+// The tag of a stream of pictures that names its first file: of depth, or of the only series.
 inline constexpr const char* kFileTag = "FILE";
 
 // The tag of a stream of two views that says whether each was squeezed by half: 1 or 0.

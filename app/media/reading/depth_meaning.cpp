@@ -148,19 +148,22 @@ void makeRelative(DepthReading& read) {
   read.settings.erase("far");
 }
 
-// Numbers are what their name says, else what is usual in their files. Numbers that begin at 0, or are a network's, are
-// relative disparities if that makes the view nearer below, and doubted as distances.
+// Numbers are what their name says, else what is usual in their files: in PFM disparities, unless the view shows that
+// they are none. Numbers that begin at 0, or are a network's, are relative disparities if that makes the view nearer
+// below, and doubted as distances.
 DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
                          const CalibrationLayers& layers) {
   const auto named = namesDisparity(clues.path);
-  const bool usual = named.value_or(clues.codec == "pfm" && !mayBeMetres(look, count));
+  const bool doubtful_pfm = clues.codec == "pfm" && !named && !mayBeMetres(look, count);
+  const bool usual = named.value_or(doubtful_pfm && !looksLikeDistance(look, count));
   const bool open = !usual && !definesCodes(layers);
   const bool network = open && isOfNetwork(clues, count);
   const bool seen = (open && isOfVideoDepthAnything(clues, look, count)) ||
                     (!usual && (areRelative(count) || network) && looksLikeDisparity(look, count));
   DepthReading read = readFloats(look, count, usual || seen, layers);
   if (seen && network) makeRelative(read);
-  read.unsure = seen || (network && !named) || (!usual && areRelative(count) && !areFromAfar(look, count));
+  read.unsure = read.unsure || seen || (doubtful_pfm && !looksLikeDisparity(look, count)) || (network && !named) ||
+                (!usual && areRelative(count) && !areFromAfar(look, count));
   return read;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/reading/float_reading.h"
 
+#include <fnmatch.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -20,6 +22,7 @@ constexpr double kOutliers = 0.002, kNearer = 0.9, kFarther = 1.1;
 constexpr double kMmPerMetre = 1000;
 constexpr double kFarthestMetres = 200;   // if half of the samples are beyond this, the numbers are millimetres
 constexpr double kLeastCentimetres = 20;  // a scene that is nearer is rare
+constexpr double kDepthBuffer = 0.5;      // most of a depth buffer's numbers are near 1
 constexpr double kLeastMm = 1e-3, kMostMm = 1e9;
 constexpr double kNearMm = 500;  // of disparities, whose scale is unknown
 constexpr int kNames = 3;        // of a path, from its end
@@ -77,6 +80,12 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
   if (stated_unit_mm) return reading;
   reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
   if (value * reach.median > kLeastCentimetres) reading.offer += "; if cm: --as unreal";
+  if (value * reach.high > 1) return reading;
+  reading.unsure = true;  // a room is farther away
+  reading.offer +=
+      value * reach.low > kDepthBuffer
+          ? "; if they are a depth buffer's d: write near * far / (far - d * (far - near))"
+          : "; if they are shares of a greatest distance, such as Habitat's 10 m: --calibration unit=10000";
   return reading;
 }
 
@@ -123,6 +132,8 @@ double nearerBelowAsDistances(const Frame& depth, const CodeCount& count) {
 
 std::optional<bool> namesDisparity(std::string_view path) {
   const std::string lower = lowerCase(path);
+  // AirSim numbers the kinds of its pictures: 1 and 2 are distances.
+  if (::fnmatch("*img_*_[12]_*[0-9].pfm", lower.c_str(), 0) == 0) return false;
   std::string_view rest = lower;
   const auto names = [](std::string_view name, auto words) {
     return std::any_of(words.begin(), words.end(), [&](const char* word) { return name.find(word) != name.npos; });

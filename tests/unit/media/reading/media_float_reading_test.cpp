@@ -219,6 +219,40 @@ TEST(FloatReading, ALevelArrayIsDistancesUnlessItsProgramWritesDisparities) {
   EXPECT_THAT(meaningOfArray("depth/film.npy", true, false).reading.doubts, IsEmpty());
 }
 
+// AirSim's distances and a stereo camera's disparities, both without a word: what makes the view near below.
+TEST(FloatReading, OfAPfmWithoutANameTheViewTellsOrItIsDoubted) {
+  const auto meaningOf = [](const char* path, auto&& value) {
+    Frame frame =
+        test::makeGrayFrame(kCols, kRows, 16, {}, [&](int c, int r) { return std::lround(100 * value(c, r)); });
+    frame.value_per_code = 0.01;
+    return readMeaning({.codec = "pfm", .path = path}, nullptr, frame).value();
+  };
+  const auto street = [](int, int r) { return 20 + 3 * (kRows - r); };
+  const DepthMeaning distances = meaningOf("a/1.pfm", street);
+  EXPECT_EQ(distances.calibration.calibration.unit_mm, 10);
+  EXPECT_THAT(distances.reading.doubts, Contains(HasSubstr("law=inverse")));
+  EXPECT_THAT(meaningOf("a/img_0_1_1636123456700400000.pfm", street).reading.doubts, IsEmpty());
+  const DepthMeaning disparities = meaningOf("a/1.pfm", [](int, int r) { return 20 + 3 * r; });
+  EXPECT_EQ(disparities.calibration.calibration.law, DepthLaw::Inverse);
+  EXPECT_THAT(disparities.reading.doubts, IsEmpty());
+  const DepthMeaning level = meaningOf("a/1.pfm", [](int c, int) { return 20 + c; });
+  EXPECT_EQ(level.calibration.calibration.law, DepthLaw::Inverse);
+  EXPECT_THAT(level.reading.doubts, Contains(HasSubstr("unit=1000")));
+}
+
+// Rooms are farther away.
+TEST(FloatReading, DistancesUpTo1AreDoubtedWithTheWaysToScaleThem) {
+  const auto doubtsOf = [](double least) {
+    Frame frame = test::makeGrayFrame(kCols, kRows, 16, {},
+                                      [&](int c, int r) { return std::lround(10'000 * least) + 40 * (kRows - r) + c; });
+    frame.value_per_code = 1e-4;
+    return readMeaning({.codec = "npy", .path = "depth.npy"}, nullptr, frame).value().reading.doubts;
+  };
+  EXPECT_THAT(doubtsOf(0.1), Contains(HasSubstr("unit=10000")));
+  EXPECT_THAT(doubtsOf(0.7), Contains(HasSubstr("depth buffer")));
+  EXPECT_THAT(doubtsOf(2), IsEmpty());
+}
+
 TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("a/Disparity/left/7.tif"), true);
   EXPECT_EQ(namesDisparity("disp0.npy"), true);
