@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth in the colour's picture, and depth without colour.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "app/media/film_folder.h"
@@ -15,6 +16,11 @@ namespace relievo {
 namespace {
 
 constexpr double kAllGray = 0.99;
+
+// An AVI file does not say more of such pictures than their bits.
+constexpr const char* kRaw16 =
+    "its raw pictures of 16 bits are read as colours of 5 bits each; if they are depth: ffmpeg -i FILE -f rawvideo - | "
+    "ffmpeg -f rawvideo -pix_fmt gray16le -video_size WIDTHxHEIGHT -framerate F -i - -c:v ffv1 OUT.mkv";
 
 // True if the name of the file or of its folder has a word for depth.
 bool namesDepth(const std::string& url) {
@@ -61,6 +67,20 @@ std::string captionLine(const Frame& look, bool still) {
       "white columns part two pictures below a caption of %d rows; if one is depth, cut it off: ffmpeg -i FILE "
       "-vf crop=iw:ih-%d:0:%d %s",
       rows, rows, rows, still ? "OUT.png" : "-crf 12 OUT.mkv");
+}
+
+// The layout of a picture without colour of which one half is smooth, as depth is, and the other as rough as a photo.
+std::optional<Packing> smoothHalf(const Frame& look) {
+  constexpr double kTimes = 4;
+  for (const auto& [first, second] : {std::pair(Packing::SideBySideDepthFirst, Packing::SideBySide),
+                                      std::pair(Packing::TopBottomDepthFirst, Packing::TopBottom)}) {
+    const auto halves = splitPacked(look, second, DepthCode::Hue);
+    if (!halves) continue;
+    const double before = roughnessOf(halves->color), behind = roughnessOf(halves->depth);
+    if (kTimes * before < behind) return first;
+    if (kTimes * behind < before) return second;
+  }
+  return std::nullopt;
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
@@ -114,9 +134,17 @@ void FilmMeaning::lookForHalves(const StreamInfo& color, const std::deque<Frame>
   if (std::string caption = captionLine(look, info.duration == Duration(0)); !caption.empty())
     info.notes.push_back(std::move(caption));
   if (found) return takeHalves(std::move(*found), look);
+  const bool gray = lookAt(look).gray >= kAllGray;
+  if (const auto half = gray ? smoothHalf(look) : std::nullopt) {
+    info.reading.doubts.push_back(
+        print("one half of the gray picture is as smooth as depth beside a photo; if it is: --packing %s; if all of it "
+              "is depth: --packing depth-alone",
+              name(*half)));
+    return;
+  }
   lookForViews(look);
-  const PictureLook seen = lookAt(look);
-  const char* const like = seen.gray >= kAllGray ? "gray" : isHue(seen) ? "of pure colours" : nullptr;
+  if (color.codec == "rawvideo" && color.pixel_format == "rgb555le") info.reading.doubts.emplace_back(kRaw16);
+  const char* const like = gray ? "gray" : isHue(lookAt(look)) ? "of pure colours" : nullptr;
   if (info.packing == Packing::Tracks && like != nullptr) {
     info.notes.push_back(print("the picture is %s; if it is depth: --packing depth-alone", like));
   }

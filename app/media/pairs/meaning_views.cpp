@@ -2,7 +2,10 @@
 // Finds out whether a film's one picture holds more than its colour: two views of one scene, or depth in its alpha
 // channel.
 #include <algorithm>
+#include <cstdio>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "app/media/pairs/film_meaning.h"
 #include "app/media/reading/picture_look.h"
@@ -72,6 +75,14 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
   return std::nullopt;
 }
 
+// Looking Glass's quilts hold many views, whose number is in the name: "sea_qs8x6a0.75.png". Empty if it is none.
+std::string quiltLine(const std::string& url) {
+  const std::size_t at = url.rfind("_qs");
+  int across = 0, down = 0;
+  if (at == url.npos || std::sscanf(url.c_str() + at, "_qs%dx%da", &across, &down) != 2) return "";
+  return print("its name says a quilt of %d x %d views, no depth; %s", across, down, kWhatToDo);
+}
+
 }  // namespace
 
 // Two views in two layers. False if there are none.
@@ -101,6 +112,10 @@ bool FilmMeaning::takeSaidViews(const StreamInfo& color, const Frame& look, cons
 
 // By the likeness of the halves, and the break or the black bars between them.
 void FilmMeaning::lookForViews(const Frame& look) {
+  if (std::string quilt = quiltLine(film_.options.url); !quilt.empty()) {
+    film_.info.reading.doubts.push_back(std::move(quilt));
+    return;
+  }
   const auto found = findViews(look);
   if (!found) return;
   const bool beside = *found == Packing::StereoSideBySide;

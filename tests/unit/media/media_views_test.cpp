@@ -225,5 +225,40 @@ TEST(Views, AJpsOfAnotherLayoutIsTold) {
   EXPECT_THAT(photo.info.reading.doubts, Contains(HasSubstr("not supported")));
 }
 
+// Looking Glass names the views across and down.
+TEST(Views, AQuiltIsToldByItsName) {
+  const test::TemporaryFolder folder;
+  ClipTrack film = halves(true, "png");
+  film.pix_fmt = "rgb24", film.frames = 1;
+  test::makeClip(folder / "sea_qs8x6a0.75.png", {film});
+  const test::OpenedFilm quilt = test::openFilm({.url = folder / "sea_qs8x6a0.75.png"});
+  EXPECT_FALSE(quilt.info.has_depth);
+  EXPECT_THAT(quilt.info.reading.doubts, Contains(HasSubstr("a quilt of 8 x 6 views")));
+}
+
+TEST(Views, ASmoothHalfOfAGrayPictureMayBeDepth) {
+  const test::TemporaryFolder folder;
+  for (const bool beside : {true, false}) {
+    ClipTrack film{.codec = "png", .pix_fmt = "gray", .width = 2 * kSceneCols, .height = 2 * kSceneRows, .frames = 1};
+    (beside ? film.height : film.width) /= 2;
+    film.sample = [](int, int c, int r, int) {
+      if (c < kSceneCols && r < kSceneRows) return static_cast<std::uint32_t>(255 * test::photoOf(c, r)[0]);
+      return static_cast<std::uint32_t>(c % kSceneCols + r % kSceneRows) * 255 / (kSceneCols + kSceneRows);
+    };
+    test::makeClip(folder / "a.png", {film});
+    const test::OpenedFilm gray = test::openFilm({.url = folder / "a.png"});
+    EXPECT_THAT(gray.info.reading.doubts, testing::ElementsAre(HasSubstr(beside ? "--packing sbs;" : "--packing tb;")));
+  }
+}
+
+// AVI says of raw pictures only how many bits they have.
+TEST(Views, RawPicturesOfSixteenBitsInAviMayBeDepth) {
+  const test::TemporaryFolder folder;
+  ClipTrack film{.codec = "rawvideo", .pix_fmt = "rgb555le", .width = 32, .height = 24, .frames = 2};
+  film.sample = [](int k, int c, int r, int) { return static_cast<std::uint32_t>((k + 1) * c + r) % 32; };
+  test::makeClip(folder / "a.avi", {film});
+  EXPECT_THAT(test::openFilm({.url = folder / "a.avi"}).info.reading.doubts, Contains(HasSubstr("gray16le")));
+}
+
 }  // namespace
 }  // namespace relievo
