@@ -67,7 +67,7 @@ constexpr const char* kPacked = "it is compressed; unpack it and name what is in
 constexpr const char* kModel =
     "it is a 3D model; relievo plays depth pictures: give the recording that it was made from";
 constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
-constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
+constexpr std::array<UnreadEnding, 29> kUnreadEndings{{
     {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},
     {"npz", "it is an archive of arrays; unzip it and name the .npy with the depth"},
     {"zip", "it is an archive; unpack it and name its folder"},
@@ -96,6 +96,9 @@ constexpr std::array<UnreadEnding, 28> kUnreadEndings{{
     {"obj", kModel},
     {"glb", kModel},
     {"stl", kModel},
+    {"hgt",
+     "it is heights of SRTM; convert it: ffmpeg -f rawvideo -pix_fmt gray16be -video_size 1201x1201 -i FILE OUT.png "
+     "(3601x3601 if it has 26 MB), and give OUT.png --as heights"},
     {"e57", kCloud},
     {"las", kCloud},
     {"blend", "it is a scene of Blender; render its depth (Z) as EXR, which is read"},
@@ -175,6 +178,9 @@ const char* unreadVariant(std::string_view head, std::string_view path) {
            "\"rb\").read().split(b\"&\", 3); numpy.save(\"depth.npy\", numpy.frombuffer(d, \"<f4\").reshape(int(h), "
            "int(w)))'";
   }
+  constexpr std::size_t kExrFlags = 5;  // 8: deep; 16: several parts, of which one may be flat
+  if (head.starts_with("\x76\x2f\x31\x01") && head.size() > kExrFlags && (head[kExrFlags] & 24) == 8)
+    return "it is a deep EXR, of several samples a pixel; flatten it: oiiotool FILE --flatten -o OUT.exr";
   if (ending == "dpt" && !head.starts_with("PIEH")) {
     return "it is no depth of Sintel; if it is LINEMOD's, convert it: python3 -c 'import numpy; "
            "numpy.save(\"depth.npy\", numpy.fromfile(\"FILE\", \"<u2\")[4:].reshape(numpy.fromfile(\"FILE\", "

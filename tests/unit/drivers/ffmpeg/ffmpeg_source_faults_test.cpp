@@ -128,6 +128,8 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"a.svo2", "\x89MCAP0\r\n"sv, {"ZED", "ZED_SVO_Export"}},
       {"a.ply", "ply\nformat"sv, {"point cloud", "recording"}},
       {"a.pcd", "# .PCD v0.7"sv, {"point cloud", "recording"}},
+      {"N46E007.hgt", "\1\2"sv, {"SRTM", "gray16be", "--as heights"}},
+      {"a.exr", "\x76\x2f\x31\1\2\x8\0\0"sv, {"deep EXR", "--flatten"}},
       {"a.mat", "MATLAB 5.0 MAT-file"sv, {"MATLAB", ".npy", "loadmat"}},
       {"nyu.mat", "MATLAB 7.3 MAT-file"sv, {"MATLAB 7.3", "h5py", "swapaxes(-1, -2)"}},
       {"a.raw", "\1\2"sv, {"without a picture size", "gray16le"}},
