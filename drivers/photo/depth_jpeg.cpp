@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the depth map of a JPEG photo and its meaning (Google's depthmap metadata; Dynamic Depth 1.0).
+// Finds the depth map of a JPEG photo and its meaning (Google's depthmap metadata; Dynamic Depth 1.0; iPhones).
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -7,7 +7,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "drivers/photo/apple_depth.h"
 #include "drivers/photo/jpeg_xmp.h"
+#include "drivers/photo/multi_picture.h"
 #include "drivers/photo/photo.h"
 #include "platform/print.h"
 
@@ -105,6 +107,16 @@ std::span<const std::uint8_t> appendedDepth(std::string_view xmp, std::span<cons
   return {};
 }
 
+// Behind an iPhone's picture, in its own index: a picture whose XMP says disparity or depth.
+std::vector<PhotoPart> appleDepth(const PhotoBytes& file) {
+  for (const ListedPicture& picture : picturesIn(*file)) {
+    if (picture.coded.data() == file->data()) continue;
+    const std::string xmp = xmpOf(picture.coded);
+    if (isAppleDepth(xmp)) return withDepth(file, picture.coded, file, depthTags(appleRange(xmp), 8));
+  }
+  return {};
+}
+
 bool beginsLikeJpeg(std::span<const std::uint8_t> bytes) {
   return bytes.size() > 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff;
 }
@@ -117,7 +129,8 @@ std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
     const auto owner = std::make_shared<const std::vector<std::uint8_t>>(std::move(*map));
     return withDepth(file, *owner, owner, tagsOf(xmp, "GDepth:"));
   }
-  return withDepth(file, appendedDepth(xmp, *file), file, tagsOf(xmp, "DepthMap:"));
+  auto parts = withDepth(file, appendedDepth(xmp, *file), file, tagsOf(xmp, "DepthMap:"));
+  return parts.empty() ? appleDepth(file) : parts;
 }
 
 }  // namespace

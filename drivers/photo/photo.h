@@ -33,12 +33,17 @@ struct PhotoKind {
 // A JPEG's, which FFmpeg's decoder holds two times more.
 inline constexpr std::uint64_t kMostJpegBytes = 140'000'000;
 
-// JPEG with a depth map in its XMP metadata (GDepth, standard or extended) or behind the picture (Dynamic Depth).
+// JPEG with a depth map in its XMP metadata (GDepth, standard or extended) or behind the picture (Dynamic
+// Depth; an iPhone's photo in the most compatible form).
 extern const PhotoKind kDepthJpeg;
 
 // JPEG of two views: several pictures in one file (MPO; CIPA DC-007) as two streams with kViewTag, or both views in one
 // picture (JPS), with the tags STEREO_MODE and kSqueezedTag.
 extern const PhotoKind kStereoJpeg;
+
+// A line about depth in a photo of a kind that is not read (Samsung's, Huawei's), with what to do; null if the file,
+// which begins like a JPEG, has none.
+[[nodiscard]] const char* unreadDepth(const std::string& path);
 
 // The pictures of a file that one of the kinds takes; none if it is another. Reads the file if it begins
 // like one.
