@@ -100,6 +100,7 @@ struct Timing {
 
   void align(const FoundPictures& found, NameKind depth_kind);
   bool pairByKey(const FoundPictures& found);
+  void spreadSlowDepth();
   void rankFarNumbers();
   void noteGaps();
 };
@@ -145,6 +146,35 @@ void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   const std::size_t pairs = moveToNearest(color, depth);
   if (pairs < color.size()) {
     notes.push_back(print("%zu of %zu colour pictures have no depth within 20 ms", color.size() - pairs, color.size()));
+  }
+}
+
+// Whether the values have no gap.
+bool isCount(const Series& series) {
+  return !series.empty() && series.back().value - series.front().value + 1 == static_cast<std::int64_t>(series.size());
+}
+
+// Depth of a slower camera, each series counted from the same number on without a gap: a depth picture is of every so
+// many colour pictures. Depth that ends early may look the same.
+void Timing::spreadSlowDepth() {
+  constexpr std::size_t kFewest = 4;
+  if (kind != NameKind::Numbers || depth.size() < kFewest || 2 * depth.size() > color.size()) return;
+  if (!isCount(color) || !isCount(depth) || color.front().value != depth.front().value) return;
+  const std::size_t times = (color.size() + depth.size() / 2) / depth.size();
+  const std::size_t whole = times * depth.size();
+  const bool fits = std::max(whole, color.size()) - std::min(whole, color.size()) < times;
+  notes.push_back(
+      fits ? print(
+                 "%zu depth pictures for %zu of colour, counted alike: one for every %zu is assumed; if the depth ends "
+                 "early, give the folder of colour, and --depth with that of depth",
+                 depth.size(), color.size(), times)
+           : print("%zu depth pictures for %zu of colour, counted alike: the depth is taken to end early; if it is "
+                   "slower, give the folder of colour, and --depth with a film that ffmpeg -framerate F -i made of the "
+                   "other",
+                   depth.size(), color.size()));
+  if (!fits) return;
+  for (Valued& each : depth) {
+    each.value = color.front().value + (each.value - color.front().value) * static_cast<std::int64_t>(times);
   }
 }
 
@@ -207,7 +237,7 @@ Timing timingOf(const FoundPictures& found) {
   timing.color = inOrder(color.values);
   timing.depth = inOrder(depth.values);
   timing.align(found, depth.kind);
-  if (!found.views) timing.rankFarNumbers();
+  if (!found.views) timing.spreadSlowDepth(), timing.rankFarNumbers();
   return timing;
 }
 
