@@ -17,7 +17,7 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr std::array<std::string_view, 7> kEndings{"pfm", "npy", "dpt", "exr", "tif", "tiff", "png"};
+constexpr std::array<std::string_view, 8> kEndings{"pfm", "npy", "npz", "dpt", "exr", "tif", "tiff", "png"};
 
 bool isPhoto(const std::string& name) {
   const std::string ending = endingOf(name);
@@ -41,6 +41,29 @@ bool isPlane(const std::string& path) {
   const std::size_t bytes = file ? file->read(0, head).value_or(0) : 0;
   const auto header = npy::parseHeader(std::span(head).first(bytes));
   return header && header->pictures == 1 && header->components == 1 && std::min(header->rows, header->cols) >= kLeast;
+}
+
+// As many maps of floats as pictures: AirSim's, whose names differ in more than the ending.
+std::vector<std::string> takeFloatsAmong(const std::string& folder, std::vector<std::string>& names) {
+  const auto depth = std::ranges::partition(names, [](const auto& name) { return endingOf(name) != "pfm"; });
+  if (2 * depth.size() != names.size() || isGray16Png(folder + names.front())) return {};
+  std::vector<std::string> taken(depth.begin(), depth.end());
+  names.erase(depth.begin(), depth.end());
+  return taken;
+}
+
+// PNG of gray of 16 bits among others, where the first names are of both kinds: no photo has as many shades.
+std::vector<std::string> takeGray16Among(const std::string& folder, std::vector<std::string>& names) {
+  constexpr std::size_t kFirst = 4;
+  if (std::ranges::any_of(names, [](const auto& name) { return endingOf(name) != "png"; })) return {};
+  std::ranges::sort(names, naturalLess);
+  const auto isColor = [&](const std::string& name) { return !isGray16Png(folder + name); };
+  const std::span<const std::string> first(names.data(), std::min(kFirst, names.size()));
+  if (std::ranges::all_of(first, isColor) || std::ranges::none_of(first, isColor)) return {};
+  const auto depth = std::ranges::stable_partition(names, isColor);
+  std::vector<std::string> taken(depth.begin(), depth.end());
+  names.erase(depth.begin(), depth.end());
+  return taken;
 }
 
 }  // namespace
@@ -74,7 +97,7 @@ std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::
 
 std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
-  for (const std::string_view ending : {"pfm", "dpt", "npy", "png"}) {
+  for (const std::string_view ending : {"pfm", "dpt", "npy", "npz", "png"}) {
     const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
     const auto isColor = [&](const std::string& name) {
       return isPhoto(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));
@@ -89,7 +112,8 @@ std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vecto
     names.erase(depth.begin(), depth.end());
     return taken;
   }
-  return {};
+  auto floats = takeFloatsAmong(folder, names);
+  return floats.empty() ? takeGray16Among(folder, names) : floats;
 }
 
 }  // namespace relievo::pictures

@@ -60,7 +60,7 @@ Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
   Listing listing;
   for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
-    const char* const way = wayToConvert(name);
+    const char* const way = wayToConvert(folder, name);
     if (way != nullptr && (listing.way == nullptr || roleOf(name) == Role::Depth)) listing.way = way;
     const MediaKind kind = mediaKindOf(name);
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/pictures/other_files.h"
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "hal/media/media_names.h"
+#include "platform/files/answered_file.h"
 
 namespace relievo::pictures {
 namespace {
@@ -15,9 +19,6 @@ constexpr const char* kRawFilms =
     "this folder holds raw pictures without a size; convert each file: ffmpeg -f rawvideo -pix_fmt FORMAT -video_size "
     "WIDTHxHEIGHT -framerate F -i FILE -c:v ffv1 FILE.mkv; size and FORMAT are often in its name, as in "
     "depth_320x240_yuv420p16le.yuv; of 8 bits FORMAT is yuv420p, of 10 yuv420p10le, of 16 yuv420p16le";
-constexpr const char* kArchives =
-    "this folder holds archives of arrays; convert them: python3 -c 'import glob, numpy; [numpy.save(f[:-4], "
-    "numpy.load(f)[\"depth\"]) for f in glob.glob(\"FOLDER/*.npz\")]', depth being the array's name";
 constexpr const char* kHdf5 =
     "this folder holds HDF5 files; convert the first dataset of each: python3 -c 'import glob, h5py, numpy; "
     "[numpy.save(f, next(iter(h5py.File(f).values()))) for f in glob.glob(\"FOLDER/*5\")]'";
@@ -34,17 +35,32 @@ constexpr const char* kHypersim =
 constexpr const char* kRecord3d =
     "this folder holds Record3D's depth in Apple's LZFSE, which is not read; let the app export the film as MP4, or as "
     "EXR and RGB";
+// HDF5 behind a head of its own, whose columns lie behind each other.
+constexpr const char* kMatlab73 =
+    "this folder holds MATLAB 7.3 files; convert them: python3 -c 'import glob, h5py, numpy; [numpy.save(f[:-4], "
+    "h5py.File(f)[\"NAME\"][:].swapaxes(-1, -2)) for f in glob.glob(\"FOLDER/*.mat\")]', NAME being the variable with "
+    "the depth";
+
+bool isMatlab73(const std::string& path) {
+  constexpr std::string_view kBegins = "MATLAB 7.3";
+  std::array<std::uint8_t, kBegins.size()> head{};
+  const auto file = AnsweredFile::open(path);
+  return file && file->read(0, head).value_or(0) == head.size() &&
+         std::equal(head.begin(), head.end(), kBegins.begin());
+}
+
 struct Way {
   const char *ending, *line;
 };
-constexpr Way kWays[] = {{"raw", kRaw},   {"bin", kRaw}, {"yuv", kRawFilms}, {"npz", kArchives},
-                         {"hdf5", kHdf5}, {"h5", kHdf5}, {"mat", kMatlab},   {"depth", kRecord3d}};
+constexpr Way kWays[] = {{"raw", kRaw}, {"bin", kRaw},    {"yuv", kRawFilms},  {"hdf5", kHdf5},
+                         {"h5", kHdf5}, {"mat", kMatlab}, {"depth", kRecord3d}};
 
 }  // namespace
 
-const char* wayToConvert(std::string_view name) {
+const char* wayToConvert(const std::string& folder, std::string_view name) {
   if (name.ends_with(".depth_meters.hdf5")) return kHypersim;
   const std::string ending = endingOf(name);
+  if (ending == "mat" && isMatlab73(folder + std::string(name))) return kMatlab73;
   for (const Way& way : kWays) {
     if (ending == way.ending) return way.line;
   }

@@ -14,7 +14,7 @@ namespace relievo::pictures {
 namespace {
 
 // Beside kDepthWords.
-constexpr std::array<std::string_view, 5> kDepth{"xyz", "depthcrop", "depthmaps", "rawdepth", "mist"};
+constexpr std::array<std::string_view, 6> kDepth{"xyz", "dpt", "depthcrop", "depthmaps", "rawdepth", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
 constexpr std::array<std::string_view, 32> kOther{
@@ -126,6 +126,7 @@ bool isBetter(const std::string& a, const std::string& b) {
 }  // namespace
 
 Role roleOf(std::string_view name) {
+  if (name == "D" || name == "d" || name == "Z" || name == "z") return Role::Depth;  // a folder
   const Role role = roleOfWords(wordsOf(name));
   const char letter = matterportLetter(name);
   if (role == Role::Other || role == Role::Depth) return role;

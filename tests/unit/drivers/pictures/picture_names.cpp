@@ -113,13 +113,13 @@ TEST(PictureLists, OrderCommentsAndWhatIsNone) {
 // At 30 pictures a second the greater number would be 7.4e16 s after the other: 64 bits of ns hold 9.2e9 s.
 // Its HDF5 files hold distances along rays, as its README says.
 TEST(OtherFiles, HypersimsDistancesBecomeDepth) {
-  EXPECT_THAT(pictures::wayToConvert("frame.0000.depth_meters.hdf5"), testing::HasSubstr("/ numpy.sqrt(1 + x * x"));
-  EXPECT_THAT(pictures::wayToConvert("frame.0000.position.hdf5"), testing::Not(testing::HasSubstr("sqrt")));
+  EXPECT_THAT(pictures::wayToConvert("", "frame.0000.depth_meters.hdf5"), testing::HasSubstr("/ numpy.sqrt(1 + x * x"));
+  EXPECT_THAT(pictures::wayToConvert("", "frame.0000.position.hdf5"), testing::Not(testing::HasSubstr("sqrt")));
 }
 
 TEST(OtherFiles, RawPicturesAreConvertedToAFilmOfTheirOwnFormat) {
-  EXPECT_THAT(pictures::wayToConvert("v0_depth_320x240_yuv420p16le.yuv"), testing::HasSubstr("of 16 yuv420p16le"));
-  EXPECT_THAT(pictures::wayToConvert("a.raw"), testing::HasSubstr("gray16le"));
+  EXPECT_THAT(pictures::wayToConvert("", "v0_depth_320x240_yuv420p16le.yuv"), testing::HasSubstr("of 16 yuv420p16le"));
+  EXPECT_THAT(pictures::wayToConvert("", "a.raw"), testing::HasSubstr("gray16le"));
 }
 
 TEST(PictureNames, GreatNumbersCountNoPictures) {

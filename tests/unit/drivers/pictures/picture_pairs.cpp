@@ -282,9 +282,9 @@ TEST_F(Pictures, DepthOfTwoViewsIsThatOfTheLeftOne) {
 }
 
 TEST_F(Pictures, DepthThatIsNoPictureIsToldBesideColour) {
-  file("r/rgbd/0.jpg"), file("r/rgbd/0.depth"), file("n/0.jpg"), file("n/0.npz");
+  file("r/rgbd/0.jpg"), file("r/rgbd/0.depth"), file("n/0.jpg"), file("n/0.h5");
   EXPECT_THAT(read(folder_ / "r/rgbd").notes, Contains(HasSubstr("LZFSE")));
-  EXPECT_THAT(read(folder_ / "n").notes, Contains(HasSubstr("archives of arrays")));
+  EXPECT_THAT(read(folder_ / "n").notes, Contains(HasSubstr("HDF5")));
 }
 
 TEST_F(Pictures, FoldersOfTwoViewsAreBoth) {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Series of colour and depth that other things than words tell apart, and depth that is slower than the colour.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/drivers/pictures/picture_files.h"
+
+namespace relievo {
+namespace {
+using test::Pictures;
+using testing::Contains;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST_F(Pictures, DepthOfASlowerCameraIsSpreadOverTheColour) {
+  const auto write = [&](const std::string& place, int color, int depth, int first = 0) {
+    for (int k = 0; k < color; ++k) file(place + "/rgb/" + std::to_string(1000 + first + k) + ".png");
+    for (int k = 0; k < depth; ++k) file(place + "/depth/" + std::to_string(1000 + k) + ".png");
+    return read(folder_ / place, 30);
+  };
+  const Film slow = write("a", 24, 4);
+  EXPECT_THAT(slow.depth, ElementsAre("0 a/depth/1000.png", "200 a/depth/1001.png", "400 a/depth/1002.png",
+                                      "600 a/depth/1003.png"));
+  EXPECT_THAT(slow.notes, Contains(HasSubstr("one for every 6 is assumed")));
+  EXPECT_EQ(write("b", 25, 4).depth.back(), "600 b/depth/1003.png") << "the last of its colours are missing";
+  const Film between = write("c", 22, 9);
+  EXPECT_EQ(between.depth[1], "33.3333 c/depth/1001.png");
+  EXPECT_THAT(between.notes, Contains(HasSubstr("taken to end early")));
+  EXPECT_THAT(write("d", 24, 20).notes, Each(Not(HasSubstr("counted alike"))));
+  EXPECT_THAT(write("e", 24, 4, 1).notes, Each(Not(HasSubstr("counted alike")))) << "of one clock";
+}
+
+// AirSim gives each picture the number of its kind and its own time in ns.
+TEST_F(Pictures, MapsOfFloatsAmongAsManyPicturesAreTheirDepth) {
+  for (const char* name : {"img_Drone_0_0_1636123456700000000.png", "img_Drone_0_1_1636123456700400000.pfm",
+                           "img_Drone_0_0_1636123456750000000.png", "img_Drone_0_1_1636123456750300000.pfm"})
+    file(std::string("a/") + name);
+  const Film film = read(folder_ / "a");
+  EXPECT_THAT(film.color,
+              ElementsAre("0 a/img_Drone_0_0_1636123456700000000.png", "50 a/img_Drone_0_0_1636123456750000000.png"));
+  EXPECT_THAT(film.depth,
+              ElementsAre("0 a/img_Drone_0_1_1636123456700400000.pfm", "50 a/img_Drone_0_1_1636123456750300000.pfm"));
+}
+
+TEST_F(Pictures, GrayOfSixteenBitsAmongColourIsDepth) {
+  const auto png = [&](const std::string& name, int bits, int color) {
+    std::string head = std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1", 24);
+    file(name, head + static_cast<char>(bits) + static_cast<char>(color) + name);
+  };
+  for (const char* k : {"1", "2", "3"})
+    png("a/c" + std::string(k) + ".png", 8, 2), png("a/e" + std::string(k) + ".png", 16, 0);
+  const Film film = read(folder_ / "a");
+  EXPECT_EQ(film.color.size(), 3u);
+  EXPECT_EQ(film.depth.size(), 3u);
+  EXPECT_THAT(film.depth.back(), HasSubstr("a/e3.png"));
+  for (const char* k : {"1", "2", "3"}) png("b/e" + std::string(k) + ".png", 16, 0);
+  EXPECT_TRUE(read(folder_ / "b").depth.empty()) << "one series";
+}
+
+TEST_F(Pictures, AFolderOfOneLetterHoldsDepth) {
+  for (const char* depth : {"D", "z", "dpt"}) {
+    const std::string place = std::string("of_") + depth;
+    for (const char* k : {"1", "2"}) {
+      file(place + "/rgb/" + k + ".png"), file(place + "/" + depth + "/" + k + ".png");
+      file(place + "/" + "more/" + k + ".png");
+    }
+    EXPECT_EQ(read(folder_ / place).depth.size(), 2u) << depth;
+  }
+}
+
+TEST_F(Pictures, DepthThatCannotBeOpenedIsLeftOut) {
+  for (const char* k : {"1", "2"}) file("a/" + std::string(k) + ".jpg"), file("a/" + std::string(k) + ".npz");
+  const auto describe = [](const std::string& path) -> Result<StreamInfo> {
+    if (path.ends_with(".npz")) return fail(ErrorCode::Unsupported, "has no picture");
+    return StreamInfo{.codec = "mjpeg"};
+  };
+  const auto source = makePicturesSource(describe);
+  ASSERT_TRUE(source->open(folder_ / "a"));
+  EXPECT_EQ(source->streams().size(), 1u);
+  EXPECT_THAT(source->notes(), Contains(testing::AllOf(HasSubstr("1.npz"), HasSubstr("has no picture"))));
+}
+
+}  // namespace
+}  // namespace relievo
