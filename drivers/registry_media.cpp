@@ -103,7 +103,7 @@ std::unique_ptr<MediaSource> makeMediaSource(const std::string& url) {
   if (isNpyFile(url)) return makeNpySource();
   if (isTiffFilm(url)) return makeTiffSource(describePicture);
   if (isPhoto(url, kPhotoKinds)) return makePhotoSource(kPhotoKinds);
-  return isPictures(url) ? makePicturesSource(describePicture) : makeFfmpegSource();
+  return isPictures(url) ? makePicturesSource(describePicture, unpackPicture) : makeFfmpegSource();
 }
 
 std::unique_ptr<VideoDecoder> makeSoftwareDecoder(const StreamInfo& stream) {

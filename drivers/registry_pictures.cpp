@@ -3,6 +3,7 @@
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/floats/floats.h"
+#include "drivers/photo/photo.h"
 #include "drivers/pictures/pictures.h"
 #ifdef RELIEVO_EXR
 #include "drivers/exr/exr.h"
@@ -10,12 +11,18 @@
 #ifdef RELIEVO_HEIF
 #include "drivers/heif/heif.h"
 #endif
+#ifdef RELIEVO_SCAN
+#include "drivers/npz/npz.h"
+#endif
 #include "drivers/tiff/tiff.h"
+#include "hal/media/media_names.h"
 
 namespace relievo::drivers {
 namespace {
 
-void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] StreamInfo& stream) {
+void lookInside(const std::string& path, StreamInfo& stream) {
+  if (const char* const unread = stream.codec == "mjpeg" ? unreadDepth(path) : nullptr; unread != nullptr)
+    stream.tags[kNoteTag] = unread;
 #ifdef RELIEVO_EXR
   const PhotoKind kinds[] = {kExrWithDepth};
   if (stream.codec != kExr.codec) return;
@@ -31,9 +38,17 @@ void lookInside([[maybe_unused]] const std::string& path, [[maybe_unused]] Strea
 
 }  // namespace
 
+std::unique_ptr<MediaSource> unpackPicture([[maybe_unused]] const std::string& path) {
+#ifdef RELIEVO_SCAN
+  if (endingOf(path) == "npz" && isNpz(path)) return makeNpzSource();
+#endif
+  return nullptr;
+}
+
 Result<StreamInfo> describePicture(const std::string& path) {
   if (auto dpt = describeDpt(path)) return *std::move(dpt);
-  const auto source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
+  auto source = unpackPicture(path);
+  if (!source) source = isNpyFile(path) ? makeNpySource() : makeFfmpegSource();
   if (auto opened = source->open(path); !opened) return std::unexpected(opened.error());
   for (const StreamInfo& stream : source->streams()) {
     if (stream.kind != StreamKind::Video) continue;

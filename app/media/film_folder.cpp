@@ -28,6 +28,11 @@ FilesByStem byStem(const std::vector<std::string>& names) {
   return files;
 }
 
+// "a" of "a_src" and "a_input", as Video Depth Anything and DepthCrafter name the film that their depth is of.
+std::string baseOfSource(const std::string& stem) {
+  return stem.ends_with("_src") || stem.ends_with("_input") ? stem.substr(0, stem.rfind('_')) : "";
+}
+
 // Names that the depth of a film of this name may have, the usual ones first: "a-depth" for "a", "depth_a" for
 // "color_a".
 std::vector<std::string> depthStems(const std::string& stem) {
@@ -42,11 +47,8 @@ std::vector<std::string> depthStems(const std::string& stem) {
     }
     for (const char* const between : {"-", "_"}) stems.push_back(print("%s%s%s", depth.c_str(), between, stem.c_str()));
   }
-  for (const char* const of_source : {"_src", "_input"}) {  // Video Depth Anything, DepthCrafter
-    if (!stem.ends_with(of_source)) continue;
-    const std::string base = stem.substr(0, stem.rfind('_'));
+  if (const std::string base = baseOfSource(stem); !base.empty())
     stems.insert(stems.end(), {base + "_depths", base + "_depth", base + "_vis"});
-  }
   return stems;
 }
 
@@ -69,6 +71,9 @@ bool isOfDepth(std::string_view rest) {
 // The file that holds the depth of `film`; empty if there is none.
 std::string depthOf(const std::string& film, const FilesByStem& files) {
   const std::string stem = lowerCase(stemOf(film));
+  const auto [same, end] = files.equal_range(baseOfSource(stem));  // DepthCrafter's "a.npz" for "a_input.mp4"
+  const auto numbers = std::find_if(same, end, [](const auto& file) { return endingOf(file.second) == "npz"; });
+  if (numbers != end) return numbers->second;
   for (const std::string& wanted : depthStems(stem)) {
     if (const auto found = files.lower_bound(wanted); found != files.end() && found->first == wanted)
       return found->second;
@@ -80,6 +85,22 @@ std::string depthOf(const std::string& film, const FilesByStem& files) {
     if (is_apart && isOfDepth(rest)) return at->second;
   }
   return "";
+}
+
+// The file of numbers of a picture's own name: "IMG_1.npy" for "IMG_1.jpg", those that hold nothing else first.
+std::string twinOf(const std::string& picture, const FilesByStem& files) {
+  const auto [begin, end] = files.equal_range(lowerCase(stemOf(picture)));
+  for (const std::string_view ending : {"pfm", "dpt", "npy", "npz", "exr", "tif", "tiff", "png"}) {
+    const auto is = [&](const auto& file) { return file.second != picture && endingOf(file.second) == ending; };
+    if (const auto twin = std::find_if(begin, end, is); twin != end) return twin->second;
+  }
+  return "";
+}
+
+// A camera's picture, or one made for the eye.
+bool mayBePhoto(const std::string& name) {
+  static constexpr std::array<std::string_view, 7> kPhotos{"jpg", "jpeg", "heic", "heif", "webp", "avif", "png"};
+  return std::ranges::find(kPhotos, endingOf(name)) != kPhotos.end();
 }
 
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
@@ -166,7 +187,7 @@ std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
       films.push_back(name);
     if (is != FolderEntry::Kind::Folder || picturesOf(place / name).empty()) continue;
     if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) color = name;
-    if (isOneOf(name, {"depth", "depths", "depth_images"})) depth = name;
+    if (isOneOf(name, {"depth", "depths", "depth_images", "disp", "disparity", "dpt", "D", "z"})) depth = name;
   }
   if (films.empty()) return picturesOverArray(place, color, depth);
   if (!color.empty()) return std::nullopt;
@@ -227,12 +248,22 @@ std::string depthBeside(const std::string& film) {
     const bool fits = kind == MediaKind::Film ? mayHoldFilm(name) : mediaKindOf(name) == kind;
     if (fits && is == FolderEntry::Kind::File) names.push_back(name);
   }
-  const std::string depth = depthOf(path.filename().string(), byStem(names));
+  std::string depth = depthOf(path.filename().string(), byStem(names));
+  if (depth.empty() && mayBePhoto(film)) depth = twinOf(path.filename().string(), byStem(names));
   if (depth.empty() && kind == MediaKind::Film) {
     const auto pair = filmOverDepth(folder);
     return pair && fs::path(pair->film).filename() == path.filename() ? pair->depth : "";
   }
   return depth.empty() ? "" : (path.has_parent_path() ? folder / depth : fs::path(depth)).string();
+}
+
+std::string photoBeside(const std::string& depth) {
+  if (!isOneOf(endingOf(depth), {"pfm", "dpt", "npy", "npz"}) || !isRegularFile(depth)) return "";
+  const std::string stem(depth.substr(0, depth.rfind('.') + 1));
+  for (const char* const ending : {"jpg", "jpeg", "JPG", "JPEG", "heic", "HEIC"}) {
+    if (isRegularFile(stem + ending)) return stem + ending;
+  }
+  return "";
 }
 
 std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {

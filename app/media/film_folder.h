@@ -30,8 +30,12 @@ struct FilmOverDepth {
 // picture): a-depth, a_depth, a.depth, depth-a, depth_a for a; depth_a for color_a, colour_a, rgb_a, image_a or left_a;
 // the same with another of kDepthWords (media_names.h) for depth; a_depth or a_vis for a_src or a_input; else names
 // such as a_video_depth and a_depth_vis. Small letters and capitals are the same. A film's may be a .npy or .tif too.
-// Else the folder of its depth pictures: `filmOverDepth`. Empty if there is none.
+// Else the folder of its depth pictures: `filmOverDepth`. A picture's may be a file of its own name, too: a.npy or
+// a.png for a.jpg; whether that holds depth, its samples decide. Empty if there is none.
 [[nodiscard]] std::string depthBeside(const std::string& film);
+
+// The photo of a file of numbers: a.jpg for a.npy. Empty if there is none.
+[[nodiscard]] std::string photoBeside(const std::string& depth);
 
 // The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder, as a shell has expanded it.
 // nullopt if they are fewer than two, or no such series.

@@ -36,7 +36,8 @@ constexpr const char* kGone = "the disk failed during playback; check it";
 using Bytes = std::vector<std::uint8_t>;
 
 Result<std::uint64_t> sizeOf(const std::string& path, const AnsweredFile& file) {
-  constexpr std::array<std::string_view, 3> kFloats{"exr", "pfm", "npy"};  // of which no more is held than the file
+  constexpr std::array<std::string_view, 4> kFloats{"exr", "pfm", "npy",
+                                                    "npz"};  // of which no more is held than the file
   const bool floats = std::ranges::find(kFloats, endingOf(path)) != kFloats.end();
   const auto size = file.bytes();
   if (!size || *size <= (floats ? kMostBytesOfFloats : kMostBytes)) return size;
@@ -79,7 +80,8 @@ struct Entry {
 
 class PicturesSource final : public MediaSource {
  public:
-  explicit PicturesSource(DescribePicture describe) : describe_(std::move(describe)) {}
+  PicturesSource(DescribePicture describe, UnpackPicture unpack)
+      : describe_(std::move(describe)), unpack_(std::move(unpack)) {}
   ~PicturesSource() override { close(); }
 
  private:
@@ -93,6 +95,12 @@ class PicturesSource final : public MediaSource {
       const auto& pictures = depth ? recording_.depth : recording_.color;
       if (pictures.empty()) continue;
       auto stream = describeStream(pictures, depth);
+      if (!stream && depth && !recording_.color.empty() && !endsReading(stream.error())) {
+        recording_.notes.push_back(
+            print("the depth beside it is left out: %s: %s", pictures.front().path.c_str(), stream.error().message));
+        recording_.depth.clear();
+        continue;
+      }
       if (!stream) return std::unexpected(stream.error());
       stream->index = static_cast<int>(description.streams.size());
       addEntries(pictures, stream->index);
@@ -133,6 +141,7 @@ class PicturesSource final : public MediaSource {
       if (!stream && endsReading(stream.error())) return stream;
     }
     if (!stream) return stream;
+    if (const auto note = stream->tags.extract(kNoteTag)) recording_.notes.push_back(note.mapped());
     stream->kind = StreamKind::Video;
     stream->counted = recording_.numbered || pictures.size() == 1;
     stream->frame_period = recording_.period;
@@ -149,7 +158,10 @@ class PicturesSource final : public MediaSource {
       stream->tags.erase(inside);
     }
     if (depth && !recording_.color.empty()) stream->tags["TITLE"] = "depth";
-    if (depth) stream->tags[kFileTag] = pictures.front().path;
+    const std::string& first = pictures.front().path;
+    const bool alone = recording_.color.empty() || recording_.depth.empty();
+    if ((depth || alone) && !stream->tags[kFileTag].starts_with(first))
+      stream->tags[kFileTag] = first;  // else an array in it
     return stream;
   }
 
@@ -177,6 +189,17 @@ class PicturesSource final : public MediaSource {
     return (depth ? recording_.depth : recording_.color)[entry.place].path;
   }
 
+  // The picture in the file.
+  Result<std::shared_ptr<Bytes>> readFile(const std::string& path) const {
+    const auto archive = unpack_ ? unpack_(path) : nullptr;
+    if (!archive) return readPicture(path);
+    if (const auto opened = archive->open(path); !opened) return std::unexpected(opened.error());
+    const auto packet = archive->read();
+    if (!packet) return std::unexpected(packet.error());
+    if (!*packet) return std::make_shared<Bytes>();
+    return std::make_shared<Bytes>((*packet)->data, (*packet)->data + (*packet)->bytes);
+  }
+
   Entry takeNext() {
     if (reached_.empty()) return entries_[next_++];
     const Entry entry = reached_.back();
@@ -195,7 +218,7 @@ class PicturesSource final : public MediaSource {
     while (!reached_.empty() || next_ < entries_.size()) {
       if (cancelled_) return fail(ErrorCode::Cancelled, "interrupted while reading pictures");
       const Entry entry = takeNext();
-      auto bytes = readPicture(pathOf(entry));
+      auto bytes = readFile(pathOf(entry));
       if (!bytes && endsReading(bytes.error())) return std::unexpected(bytes.error());
       if (!bytes || (*bytes)->empty()) {
         countMissed(1);
@@ -241,7 +264,8 @@ class PicturesSource final : public MediaSource {
   }
   void interrupted() noexcept override { cancelled_ = true; }
 
-  DescribePicture describe_;
+  const DescribePicture describe_;
+  const UnpackPicture unpack_;
   std::atomic<bool> cancelled_{false};
   Recording recording_;
   std::vector<Entry> entries_;
@@ -256,8 +280,8 @@ bool isPictures(const std::string& url) {
   return namesPictures(url);
 }
 
-std::unique_ptr<MediaSource> makePicturesSource(DescribePicture describe) {
-  return std::make_unique<PicturesSource>(std::move(describe));
+std::unique_ptr<MediaSource> makePicturesSource(DescribePicture describe, UnpackPicture unpack) {
+  return std::make_unique<PicturesSource>(std::move(describe), std::move(unpack));
 }
 
 }  // namespace relievo

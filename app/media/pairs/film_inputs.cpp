@@ -2,19 +2,31 @@
 #include "app/media/pairs/film_inputs.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "app/media/film_folder.h"
+#include "hal/media/media_names.h"
 #include "platform/print.h"
 #include "platform/text/plain_text.h"
 
 namespace relievo {
 namespace {
 
+namespace fs = std::filesystem;
+
 // The frame rate of depth pictures without times: the user's, else that of the film that they were recorded with.
 std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo& color) {
   if (told || color.counted || !color.average_rate.known()) return told;
   return static_cast<double>(color.average_rate.num) / color.average_rate.den;
+}
+
+// Photos share their names with masks and with pictures in other forms, too: depth is gray of more than 8 bits there.
+bool mayBeDepthOf(const std::string& photo, const std::string& file, const StreamInfo& stream) {
+  const std::string ending = endingOf(file);
+  const bool picture = ending == "png" || ending == "tif" || ending == "tiff";
+  if (!picture || fs::path(photo).stem() != fs::path(file).stem() || stream.pixel_format.empty()) return true;
+  return stream.pixel_format.starts_with("gray") && stream.pixel_format != "gray";
 }
 
 }  // namespace
@@ -40,6 +52,10 @@ Result<void> FilmInputs::open() {
 void FilmInputs::takeFilmOverDepth() {
   SourceOptions& options = film_.options;
   if (!options.depth_url.empty() || options.packing != Packing::Auto) return;
+  if (std::string photo = photoBeside(options.url); !photo.empty()) {
+    options.depth_url = std::exchange(options.url, std::move(photo));
+    return;
+  }
   const auto pair = filmOverDepth(options.url);
   if (!pair) return;
   options.url = pair->film;
@@ -87,12 +103,14 @@ void FilmInputs::takeDepthBeside(const StreamInfo& color) {
   if (file.empty()) return;
   film_.options.depth_url = file;
   const auto opened = openDepth(color);
-  if (opened) {
+  const bool is_depth = opened && mayBeDepthOf(film_.options.url, file, film_.sources.depth()->stream());
+  if (is_depth) {
     notes.push_back(print("depth is read from %s beside the film; --depth FILE chooses another", file.c_str()));
     return;
   }
-  notes.push_back(
-      print("%s lies beside the film but cannot be read as depth: %s", file.c_str(), opened.error().message));
+  if (!opened)
+    notes.push_back(
+        print("%s lies beside the film but cannot be read as depth: %s", file.c_str(), opened.error().message));
   film_.options.depth_url.clear();
   film_.failed_thing.clear();
   film_.sources.dropDepth();

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photos and the numbers that a program has put beside them under the same name.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "app/media/film_folder.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/opened_film.h"
+#include "tests/support/film/recorded_scene.h"
+
+namespace relievo {
+namespace {
+
+using test::ClipTrack;
+using test::distanceMm;
+using test::makeClip;
+using test::OpenedFilm;
+using test::openFilm;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr int kCols = test::kSceneCols, kRows = test::kSceneRows;
+
+double metresAt(int c, int r) {
+  return (distanceMm(c, r) == 0 ? 2000 : distanceMm(c, r)) / 1000;
+}
+
+// One array of rows x columns, as NumPy writes it.
+std::string array() {
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (108, 160), }";
+  header.resize(117, ' ');
+  std::string bytes = std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size() + 1) + '\0' + header + '\n';
+  for (int i = 0; i < kCols * kRows; ++i) {
+    const auto sample = static_cast<float>(metresAt(i % kCols, i / kCols));
+    bytes.append(reinterpret_cast<const char*>(&sample), sizeof sample);
+  }
+  return bytes;
+}
+
+class Twins : public testing::Test {
+ protected:
+  void picture(const std::string& name, const char* codec, const char* format, bool depth = false) const {
+    ClipTrack track{.codec = codec, .pix_fmt = format, .width = kCols, .height = kRows, .frames = 1};
+    track.sample = [depth](int k, int c, int r, int) {
+      if (depth) return static_cast<std::uint32_t>(std::lround(1000 * metresAt(c, r)));
+      return static_cast<std::uint32_t>(std::lround(255 * test::photoOf(c, r)[static_cast<std::size_t>(k)]));
+    };
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    makeClip(folder_ / name, {track});
+  }
+  void photo(const std::string& name) const { picture(name, "mjpeg", "yuvj444p"); }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  // Python's zipfile, as numpy.savez uses it.
+  void archive(const std::string& name) const {
+    write("array.npy", array());
+    std::filesystem::create_directories(std::filesystem::path(folder_ / name).parent_path());
+    const std::string script = "import sys, zipfile; zipfile.ZipFile(sys.argv[1], 'w').write(sys.argv[2], 'depth.npy')";
+    const std::string command =
+        "python3 -c \"" + script + "\" '" + folder_ / name + "' '" + folder_ / "array.npy" + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  }
+  static void expectDepth(const OpenedFilm& film) {
+    ASSERT_TRUE(film.info.has_depth);
+    EXPECT_EQ(film.info.packing, Packing::Tracks);
+    EXPECT_NEAR(film.distanceAt(80, 54), 1000 * metresAt(80, 54), 6);
+    EXPECT_NEAR(film.distanceAt(150, 10), 1000 * metresAt(150, 10), 6);
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+TEST_F(Twins, APhotoGivenAloneTakesTheNumbersOfItsName) {
+  photo("a/IMG_1.jpg"), write("a/IMG_1.npy", array());
+  photo("b/IMG_1.jpg"), picture("b/IMG_1.png", "png", "gray16be", true);
+  photo("c/IMG_1.jpg"), archive("c/IMG_1.npz");
+  for (const char* place : {"a", "b", "c"}) {
+    SCOPED_TRACE(place);
+    const OpenedFilm film = openFilm({.url = folder_ / (std::string(place) + "/IMG_1.jpg")});
+    expectDepth(film);
+    EXPECT_THAT(film.info.notes, Contains(HasSubstr("beside the film")));
+  }
+}
+
+TEST_F(Twins, APhotoInAnotherFormIsNoDepth) {
+  for (const auto& [name, codec, format] :
+       {std::array{"a/1.png", "png", "rgb24"}, std::array{"b/1.tif", "tiff", "rgb24"},
+        std::array{"c/1.png", "png", "gray"}, std::array{"d/1.tif", "tiff", "rgb48le"}}) {
+    const std::string photo_name = std::string(name).substr(0, 2) + "1.jpg";
+    photo(photo_name), picture(name, codec, format);
+    EXPECT_FALSE(openFilm({.url = folder_ / photo_name}).info.has_depth) << name;
+  }
+}
+
+TEST_F(Twins, NumbersGivenAloneTakeTheirPhoto) {
+  photo("a/IMG_1.jpg"), write("a/IMG_1.npy", array());
+  const OpenedFilm film = openFilm({.url = folder_ / "a/IMG_1.npy"});
+  expectDepth(film);
+  EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
+}
+
+// Depth Pro's.
+TEST_F(Twins, AFolderOfArchivesIsASeries) {
+  for (const char* k : {"1", "2"}) {
+    archive("a/" + std::string(k) + ".npz");
+    photo("b/" + std::string(k) + ".jpg"), archive("b/" + std::string(k) + ".npz");
+  }
+  const OpenedFilm alone = openFilm({.url = folder_ / "a"});
+  EXPECT_EQ(alone.info.packing, Packing::DepthAlone);
+  EXPECT_NEAR(alone.distanceAt(80, 54), 1000 * metresAt(80, 54), 6);
+  EXPECT_GT(alone.info.duration, Duration(0));
+  expectDepth(openFilm({.url = folder_ / "b"}));
+}
+
+TEST_F(Twins, DepthCraftersArchiveIsOfItsInput) {
+  for (const char* name : {"clip_input.mp4", "clip.npz", "clip.mp4"}) write(name, "");
+  EXPECT_EQ(depthBeside(folder_ / "clip_input.mp4"), folder_ / "clip.npz");
+}
+
+}  // namespace
+}  // namespace relievo
