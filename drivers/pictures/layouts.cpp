@@ -55,11 +55,11 @@ std::size_t behindBlanks(std::string_view header, std::size_t at) {
   return at;
 }
 
-// Where the samples of a binary PGM of 16 bits begin; 0 if it is none.
-std::size_t samplesOf(const std::vector<std::uint8_t>& pgm) {
+// Where the samples of a PGM of 16 bits begin, which is binary (P5) or text (P2); 0 if it is none.
+std::size_t samplesOf(const std::vector<std::uint8_t>& pgm, std::string_view kind = "P5") {
   constexpr std::size_t kLongestHeader = 256;
   const std::string_view text(reinterpret_cast<const char*>(pgm.data()), std::min(pgm.size(), kLongestHeader));
-  if (!text.starts_with("P5")) return 0;
+  if (!text.starts_with(kind)) return 0;
   std::size_t at = 2;
   int most = 0;
   for (int number = 0; number < 3; ++number) {
@@ -128,7 +128,7 @@ void mendByteOrder(std::vector<std::uint8_t>& pgm) {
 
 void keepCodes(std::vector<std::uint8_t>& pgm) {
   constexpr std::string_view kHighest = "65535";
-  const std::size_t begin = samplesOf(pgm);
+  const std::size_t begin = std::max(samplesOf(pgm), samplesOf(pgm, "P2"));
   if (begin == 0) return;
   const auto end = pgm.begin() + static_cast<std::ptrdiff_t>(begin - 1);
   auto digits = end;

@@ -29,16 +29,16 @@ bool namesDepth(const std::string& url) {
 
 // Floating-point numbers, a sensor's codes and a colour map are depth; so are gray, hues and a ramp of blue in a file
 // whose name says depth.
-bool isDepthAlone(const Frame& picture, const std::string& url) {
+bool isDepthAlone(const Frame& picture, const std::string& url, const std::string& file) {
   if (picture.value_per_code != 0) return true;
   if (picture.model == ColorModel::Gray && picture.components[0].bits > 8) return true;  // no photo has as many shades
   const bool may_be_codes =
       picture.model == ColorModel::Gray || hasEqualColors(picture) || packedOrder(picture) != SampleOrder::AsStored;
   if (may_be_codes && sensorKind(picture, CodeCount(picture)) != nullptr) return true;
-  if (namesDepth(url) && lookAt(picture).gray >= kAllGray) return true;
+  if ((namesDepth(url) || saysDepth(file)) && lookAt(picture).gray >= kAllGray) return true;
   const auto map = bestColorMap(picture);
   if (!map) return false;
-  return saysDepth(url) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
+  return saysDepth(url) || saysDepth(file) || (map->code != DepthCode::Hue && map->code != DepthCode::Kinect);
 }
 
 // The rows above the picture that are white but for words: a caption. 0 if there are none.
@@ -123,7 +123,8 @@ void FilmMeaning::lookForHalves(const StreamInfo& color, const std::deque<Frame>
   if (options.packing != Packing::Auto || elsewhere || film_.isPacked()) return;
   const Frame look = scout_.tellingPicture(pictures[0], options.url, color.index);
   if (takeSaidViews(color, look, pictures) || lookForAlpha(color, look)) return;
-  if (isDepthAlone(look, options.url)) {
+  const auto file = color.tags.find(kFileTag);  // of a series: its first picture
+  if (isDepthAlone(look, options.url, file == color.tags.end() ? "" : file->second)) {
     info.packing = Packing::DepthAlone;
     clues_.packing_by = CalibrationOrigin::FirstPicture;
     clues_.why.emplace_back("depth without colour: it is shown as gray");

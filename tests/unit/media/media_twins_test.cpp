@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Photos and the numbers that a program has put beside them under the same name.
+// Photos and the numbers that a program has put beside them under the same name; codes as text; series of gray.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -122,6 +122,23 @@ TEST_F(Twins, AFolderOfArchivesIsASeries) {
 TEST_F(Twins, DepthCraftersArchiveIsOfItsInput) {
   for (const char* name : {"clip_input.mp4", "clip.npz", "clip.mp4"}) write(name, "");
   EXPECT_EQ(depthBeside(folder_ / "clip_input.mp4"), folder_ / "clip.npz");
+}
+
+TEST_F(Twins, CodesThatATextHoldsStayWhateverTheirHighestOneIs) {
+  std::string text = "P2\n# mm\n160 108\n5000\n";
+  for (int i = 0; i < kCols * kRows; ++i)
+    text += std::to_string(std::lround(1000 * metresAt(i % kCols, i / kCols))) + " ";
+  write("a.pgm", text);
+  const OpenedFilm film = openFilm({.url = folder_ / "a.pgm"});
+  EXPECT_EQ(film.info.calibration.calibration.unit_mm, 1);
+  EXPECT_NEAR(film.distanceAt(80, 54), 1000 * metresAt(80, 54), 2);
+}
+
+TEST_F(Twins, GrayWhoseFilesSayDepthIsDepthAlone) {
+  for (const char* k : {"1", "2"}) picture("a/frame_" + std::string(k) + "_depth.png", "png", "gray");
+  EXPECT_EQ(openFilm({.url = folder_ / "a"}).info.packing, Packing::DepthAlone);
+  for (const char* k : {"1", "2"}) picture("b/frame_" + std::string(k) + ".png", "png", "gray");
+  EXPECT_FALSE(openFilm({.url = folder_ / "b"}).info.has_depth);
 }
 
 }  // namespace
