@@ -33,6 +33,29 @@ bool isGray16Png(const std::string& path) {
          head[kBits] == 16 && head[kColor] == 0;
 }
 
+// TIFF 6.0: one sample for each place, of 16 bits or more.
+bool isGrayTiff(const std::string& path) {
+  constexpr std::size_t kBits = 258, kSamples = 277, kEntry = 12, kMostEntries = 64;
+  std::array<std::uint8_t, 2 + kEntry * kMostEntries> bytes{};
+  const auto file = AnsweredFile::open(path);
+  if (!file || file->read(0, std::span(bytes).first(8)).value_or(0) != 8) return false;
+  const bool high_first = bytes[0] == 'M';
+  const auto number = [&](std::size_t at, std::size_t size) {
+    std::size_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) value = value << 8 | bytes[high_first ? at + i : at + size - 1 - i];
+    return value;
+  };
+  const std::size_t got = file->read(number(4, 4), bytes).value_or(0);
+  const std::size_t entries = got < 2 ? 0 : std::min({number(0, 2), kMostEntries, (got - 2) / kEntry});
+  std::size_t bits = 1, samples = 1;
+  for (std::size_t i = 0; i < entries; ++i) {
+    const std::size_t at = 2 + kEntry * i, tag = number(at, 2);
+    if (tag == kBits) bits = number(at + 8, 2);
+    if (tag == kSamples) samples = number(at + 8, 2);
+  }
+  return samples == 1 && bits >= 16;
+}
+
 // Whether the array is one of a value for each place of a picture, not a pose or a camera's matrix.
 bool isPlane(const std::string& path) {
   constexpr std::uint64_t kLeast = 16;  // rows and columns
@@ -89,7 +112,7 @@ std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std:
 }
 
 std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::size_t& left_out) {
-  const auto isOther = [](const std::string& name) { return roleOf(name) == Role::Other; };
+  const auto isOther = [roles = Roles()](const std::string& name) mutable { return roles.of(name) == Role::Other; };
   if (!std::ranges::all_of(names, isOther)) left_out += std::erase_if(names, isOther);
   if (role == Role::Depth) left_out += keepBestDepth(names);
   return oneKind(std::move(names), role, left_out);
@@ -97,7 +120,7 @@ std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::
 
 std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
-  for (const std::string_view ending : {"pfm", "dpt", "npy", "npz", "png"}) {
+  for (const std::string_view ending : {"pfm", "dpt", "npy", "npz", "tif", "tiff", "png"}) {
     const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
     const auto isColor = [&](const std::string& name) {
       return isPhoto(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));
@@ -107,6 +130,7 @@ std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vecto
     if (photo == names.end()) continue;
     const std::string beside = folder + besideOf(*photo);
     if ((ending == "png" && !isGray16Png(beside)) || (ending == "npy" && !isPlane(beside))) continue;
+    if (ending.starts_with("tif") && !isGrayTiff(beside)) continue;
     const auto depth = std::ranges::partition(names, [&](const auto& name) { return endingOf(name) != ending; });
     std::vector<std::string> taken(depth.begin(), depth.end());
     names.erase(depth.begin(), depth.end());

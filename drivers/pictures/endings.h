@@ -24,8 +24,9 @@ namespace relievo::pictures {
 [[nodiscard]] std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::size_t& left_out);
 
 // Takes depth out of `names` where colour and its depth differ in the ending alone: "1.jpg" or a "1.png" that is not
-// gray of 16 bits (heads are read) beside "1.pfm", "1.dpt", "1.npz" or a "1.npy" of one plane; "1.jpg" beside a gray
-// "1.png" of 16 bits. Or PFM beside as many other pictures, or gray of 16 bits among PNG. Empty if there is none.
+// gray of 16 bits (heads are read) beside "1.pfm", "1.dpt", "1.npz", a "1.npy" of one plane or a "1.tif" of gray of 16
+// bits and more; "1.jpg" beside a gray "1.png" of 16 bits. Or PFM beside as many other pictures, or gray of 16 bits
+// among PNG. Empty if there is none.
 [[nodiscard]] std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names);
 
 }  // namespace relievo::pictures

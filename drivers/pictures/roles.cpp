@@ -14,7 +14,8 @@ namespace relievo::pictures {
 namespace {
 
 // Beside kDepthWords.
-constexpr std::array<std::string_view, 6> kDepth{"xyz", "dpt", "depthcrop", "depthmaps", "rawdepth", "mist"};
+constexpr std::array<std::string_view, 7> kDepth{"xyz",       "dpt",      "distance", "depthcrop",
+                                                 "depthmaps", "rawdepth", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
 constexpr std::array<std::string_view, 32> kOther{
@@ -96,7 +97,8 @@ std::string digitsOf(std::string_view name) {
 // The names by what is said behind their first `common` letters.
 std::map<Role, std::vector<std::string>> byRoleBehind(std::size_t common, const std::vector<std::string>& names) {
   std::map<Role, std::vector<std::string>> by_role;
-  for (const std::string& name : names) by_role[roleOf(name.substr(common))].push_back(name);
+  Roles roles;
+  for (const std::string& name : names) by_role[roles.of(name.substr(common))].push_back(name);
   return by_role;
 }
 
@@ -134,6 +136,15 @@ Role roleOf(std::string_view name) {
   const Role joined = roleOfWords(partsOf(name));
   if (joined == Role::Depth) return Role::Depth;
   return role == Role::Color || beginsWith(name, 'r') || letter == 'i' ? Role::Color : joined;
+}
+
+Role Roles::of(const std::string& name) {
+  std::string same = name;
+  std::ranges::replace_if(same, [](unsigned char c) { return std::isdigit(c) != 0; }, '0');
+  const bool digits_tell = matterportLetter(name) != '\0';
+  if (digits_tell || same != before_) role_ = roleOf(name);
+  before_ = digits_tell ? "" : std::move(same);
+  return role_;
 }
 
 std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& names) {
@@ -179,22 +190,33 @@ bool isPainted(std::string_view name) {
 
 std::size_t keepBestDepth(std::vector<std::string>& names) {
   if (names.empty()) return 0;
-  std::map<std::vector<std::string>, std::set<std::string>> kinds;  // digits by words
-  for (const std::string& name : names) kinds[sortedWordsOf(stemOf(name))].insert(digitsOf(stemOf(name)));
-  const std::string& best_name = *std::ranges::min_element(names, isBetter);
-  const auto best = kinds.find(sortedWordsOf(stemOf(best_name)));
-  const bool named = !keyOf(best_name).empty();  // "beach", not "depth"
+  using Words = std::vector<std::string>;
+  struct Kind {
+    std::set<std::string> digits;
+    std::string first;  // of the names
+  };
+  std::map<Words, Kind> kinds;
+  std::vector<const Words*> words_of;
+  for (const std::string& name : names) {
+    auto& [words, kind] = *kinds.try_emplace(sortedWordsOf(stemOf(name))).first;
+    words_of.push_back(&words);
+    kind.digits.insert(digitsOf(stemOf(name)));
+    if (kind.first.empty() || naturalLess(name, kind.first)) kind.first = name;
+  }
+  const auto isBetterKind = [](const auto& a, const auto& b) { return isBetter(a.second.first, b.second.first); };
+  const auto best = std::ranges::min_element(kinds, isBetterKind);
+  const bool named = !keyOf(best->second.first).empty();  // "beach", not "depth"
   const bool painted = holdsOne(best->first, kPainted);
-  std::erase_if(kinds, [&](const auto& kind) {
-    const auto& [words, digits] = kind;
-    if (words == best->first) return false;
-    if (!painted && holdsOne(words, kPainted)) return true;
+  std::set<const Words*> left_out;
+  for (const auto& [words, kind] : kinds) {
     const bool related = std::ranges::includes(words, best->first) || std::ranges::includes(best->first, words);
-    return related && std::ranges::any_of(digits, [&](const auto& each) {
-             return (!each.empty() || !named) && best->second.contains(each);
-           });
-  });
-  return std::erase_if(names, [&](const auto& name) { return !kinds.contains(sortedWordsOf(stemOf(name))); });
+    const bool same = related && std::ranges::any_of(kind.digits, [&](const auto& each) {
+                        return (!each.empty() || !named) && best->second.digits.contains(each);
+                      });
+    if (&words != &best->first && (same || (!painted && holdsOne(words, kPainted)))) left_out.insert(&words);
+  }
+  std::size_t place = 0;
+  return std::erase_if(names, [&](const auto&) { return left_out.contains(words_of[place++]); });
 }
 
 void keepLeftView(std::vector<std::string>& names) {

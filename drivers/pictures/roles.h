@@ -22,6 +22,16 @@ enum class Role : std::uint8_t {
 // words say nothing, by those that they join: "KinectDepth", "depthImages", "rgbframes".
 [[nodiscard]] Role roleOf(std::string_view name);
 
+// `roleOf` of many names: those that differ from the one before in their digits alone are not looked at again.
+class Roles {
+ public:
+  [[nodiscard]] Role of(const std::string& name);
+
+ private:
+  std::string before_;  // with 0 for each digit
+  Role role_ = Role::Unsaid;
+};
+
 // The names by their roles. Where all of them say depth, as "depth_guess_rgb.jpg" and "depth_guess_depth.jpg", only the
 // words tell that not all begin with, if some of these say colour and some depth.
 [[nodiscard]] std::map<Role, std::vector<std::string>> byRole(const std::vector<std::string>& names);

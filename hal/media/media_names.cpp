@@ -50,8 +50,8 @@ std::string endingOf(std::string_view name) {
 
 MediaKind mediaKindOf(std::string_view name) noexcept {
   const std::string ending = endingOf(name);
-  if (std::ranges::find(kFilms, ending) != kFilms.end()) return MediaKind::Film;
-  return std::ranges::find(kPictures, ending) != kPictures.end() ? MediaKind::Picture : MediaKind::Neither;
+  if (std::ranges::find(kPictures, ending) != kPictures.end()) return MediaKind::Picture;  // folders hold thousands
+  return std::ranges::find(kFilms, ending) != kFilms.end() ? MediaKind::Film : MediaKind::Neither;
 }
 
 std::vector<std::string> wordsOf(std::string_view name) {

@@ -32,6 +32,32 @@ TEST_F(Pictures, DepthOfASlowerCameraIsSpreadOverTheColour) {
   EXPECT_THAT(write("e", 24, 4, 1).notes, Each(Not(HasSubstr("counted alike")))) << "of one clock";
 }
 
+// As Isaac Sim writes them.
+TEST_F(Pictures, DistancesAreDepthAndSegmentsAreNeither) {
+  for (const char* k : {"0000", "0001"}) {
+    for (const char* name : {"rgb_", "semantic_segmentation_"}) file("a/" + std::string(name) + k + ".png");
+    file("a/distance_to_image_plane_" + std::string(k) + ".npy"), file("b/photo_" + std::string(k) + ".png");
+    file("b/semantic_" + std::string(k) + ".png");
+  }
+  const Film film = read(folder_ / "a", 10);
+  EXPECT_THAT(film.color, ElementsAre("0 a/rgb_0000.png", "100 a/rgb_0001.png"));
+  EXPECT_THAT(film.depth,
+              ElementsAre("0 a/distance_to_image_plane_0000.npy", "100 a/distance_to_image_plane_0001.npy"));
+  EXPECT_THAT(read(folder_ / "b", 10).color, ElementsAre("0 b/photo_0000.png", "100 b/photo_0001.png"));
+}
+
+TEST_F(Pictures, ATiffOfGrayIsTheDepthOfItsPhoto) {
+  const auto tiff = [&](const std::string& name, char bits, char samples) {
+    std::string text("II*\0\x8\0\0\0\2\0", 10);
+    text += std::string("\2\1\3\0\1\0\0\0", 8) + bits + std::string(3, '\0');
+    text += std::string("\x15\1\3\0\1\0\0\0", 8) + samples + std::string(7, '\0');
+    file(name + ".tif", text), file(name + ".jpg");
+  };
+  tiff("a/1", 32, 1), tiff("b/1", 16, 3), tiff("c/1", 8, 1);
+  EXPECT_EQ(read(folder_ / "a").depth.size(), 1u);
+  for (const char* place : {"b", "c"}) EXPECT_TRUE(read(folder_ / place).depth.empty()) << place;
+}
+
 // AirSim gives each picture the number of its kind and its own time in ns.
 TEST_F(Pictures, MapsOfFloatsAmongAsManyPicturesAreTheirDepth) {
   for (const char* name : {"img_Drone_0_0_1636123456700000000.png", "img_Drone_0_1_1636123456700400000.pfm",
@@ -53,7 +79,7 @@ TEST_F(Pictures, GrayOfSixteenBitsAmongColourIsDepth) {
     png("a/c" + std::string(k) + ".png", 8, 2), png("a/e" + std::string(k) + ".png", 16, 0);
   const Film film = read(folder_ / "a");
   EXPECT_EQ(film.color.size(), 3u);
-  EXPECT_EQ(film.depth.size(), 3u);
+  ASSERT_EQ(film.depth.size(), 3u);
   EXPECT_THAT(film.depth.back(), HasSubstr("a/e3.png"));
   for (const char* k : {"1", "2", "3"}) png("b/e" + std::string(k) + ".png", 16, 0);
   EXPECT_TRUE(read(folder_ / "b").depth.empty()) << "one series";
