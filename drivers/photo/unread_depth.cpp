@@ -19,6 +19,11 @@ constexpr const char* kHuawei =
     "that "
     "with --depth";
 
+constexpr const char* kLeia =
+    "it is a photo of Leia's (LIF), whose depth is in a form that is not read; export it as a picture with its depth "
+    "(RGB-D)";
+constexpr std::string_view kLif = "\x1eLIF";  // the last bytes of such a file
+
 // Samsung's directory lies at the file's end: "SEFH", the entries, their size, "SEFT". Each piece of data begins with
 // its name.
 bool isOfSamsung(std::string_view end) {
@@ -40,6 +45,7 @@ const char* unreadDepth(const std::string& path) {
   const std::span<std::uint8_t> out(reinterpret_cast<std::uint8_t*>(end.data()), end.size());
   if (size == 0 || file->read(bytes - size, out).value_or(0) != size) return nullptr;
   if (isOfSamsung(end)) return kSamsung;
+  if (end.ends_with(kLif)) return kLeia;
   const std::size_t picture_end = end.find("\xff\xd9");
   return picture_end != end.npos && end.find(std::string_view("\0edof\0", 6), picture_end) != end.npos ? kHuawei
                                                                                                        : nullptr;

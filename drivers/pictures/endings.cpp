@@ -83,7 +83,7 @@ std::vector<std::string> takeGray16Among(const std::string& folder, std::vector<
   const auto isColor = [&](const std::string& name) { return !isGray16Png(folder + name); };
   const std::span<const std::string> first(names.data(), std::min(kFirst, names.size()));
   if (std::ranges::all_of(first, isColor) || std::ranges::none_of(first, isColor)) return {};
-  const auto depth = std::ranges::stable_partition(names, isColor);
+  const auto depth = std::ranges::partition(names, isColor);
   std::vector<std::string> taken(depth.begin(), depth.end());
   names.erase(depth.begin(), depth.end());
   return taken;

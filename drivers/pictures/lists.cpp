@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kMostLines = 1'000'000;
 constexpr const char* kFormat =
-    "is a text, not a film, and lists no pictures either; give a film, or lines TIME PICTURE TIME PICTURE";
+    "is a text, not a film, and lists no pictures either; give a film, or lines TIME PICTURE TIME PICTURE; if it is a "
+    "table of numbers: python3 -c 'import numpy; numpy.save(\"depth.npy\", numpy.loadtxt(\"FILE\"))'";
 
 std::vector<std::string_view> wordsOf(std::string_view line) {
   constexpr std::string_view kBlanks = " \t\r,";

@@ -83,6 +83,15 @@ std::optional<Packing> smoothHalf(const Frame& look) {
   return std::nullopt;
 }
 
+// For a picture in colours whose name says depth: a small palette hides its colour map.
+std::string namedLine(const Frame& look) {
+  const auto map = bestColorMap(look);
+  return print(
+      "its name says depth, but its colours are of no known map, and it plays flat; if it is depth: --packing "
+      "depth-alone --depth-code %s",
+      map ? name(map->code) : "turbo, jet, ..");
+}
+
 // The luma of shades of red alone: from black to the share of red in white.
 CalibrationSettings redAsLuma(const Frame& picture) {
   if (picture.model != ColorModel::Yuv) return {};
@@ -146,9 +155,10 @@ void FilmMeaning::lookForHalves(const StreamInfo& color, const std::deque<Frame>
   lookForViews(look);
   if (color.codec == "rawvideo" && color.pixel_format == "rgb555le") info.reading.doubts.emplace_back(kRaw16);
   const char* const like = gray ? "gray" : isHue(lookAt(look)) ? "of pure colours" : nullptr;
-  if (info.packing == Packing::Tracks && like != nullptr) {
-    info.notes.push_back(print("the picture is %s; if it is depth: --packing depth-alone", like));
-  }
+  if (info.packing != Packing::Tracks) return;
+  if (like != nullptr) info.notes.push_back(print("the picture is %s; if it is depth: --packing depth-alone", like));
+  else if (namesDepth(options.url))
+    info.reading.doubts.push_back(namedLine(color.codec == "gif" ? meansOf(look) : look));
 }
 
 void FilmMeaning::takeHalves(FoundPacking found, const Frame& look) {

@@ -125,6 +125,7 @@ TEST_F(PhoneJpeg, DepthOfOtherPhonesIsNamed) {
   const std::string samsung = data + directory + std::string("\x18\0\0\0", 4) + "SEFT";
   EXPECT_THAT(open(colorJpeg() + samsung).info.notes, Contains(HasSubstr("exiftool -b -DepthMapTiff")));
   EXPECT_THAT(open(colorJpeg() + std::string("\0edof\0map", 9)).info.notes, Contains(HasSubstr("Huawei")));
+  EXPECT_THAT(open(colorJpeg() + "\x1eLIF").info.notes, Contains(HasSubstr("Leia")));
   EXPECT_THAT(open(colorJpeg()).info.notes, testing::Each(testing::Not(HasSubstr("phone"))));
 }
 

@@ -141,5 +141,13 @@ TEST_F(Twins, GrayWhoseFilesSayDepthIsDepthAlone) {
   EXPECT_FALSE(openFilm({.url = folder_ / "b"}).info.has_depth);
 }
 
+TEST_F(Twins, ColoursThatANameSaysAreDepthAreToldToPlayFlat) {
+  for (const char* name : {"room_depth.png", "room.png"}) picture(name, "png", "rgb24");
+  EXPECT_THAT(openFilm({.url = folder_ / "room_depth.png"}).info.reading.doubts,
+              Contains(HasSubstr("--packing depth-alone --depth-code turbo")));
+  EXPECT_THAT(openFilm({.url = folder_ / "room.png"}).info.reading.doubts,
+              testing::Each(testing::Not(HasSubstr("its name says depth"))));
+}
+
 }  // namespace
 }  // namespace relievo

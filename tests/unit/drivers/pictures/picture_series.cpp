@@ -108,5 +108,10 @@ TEST_F(Pictures, DepthThatCannotBeOpenedIsLeftOut) {
   EXPECT_THAT(source->notes(), Contains(testing::AllOf(HasSubstr("1.npz"), HasSubstr("has no picture"))));
 }
 
+TEST_F(Pictures, ATableOfNumbersHasTheCommandThatConvertsIt) {
+  file("depth.txt", "1.250 1.251\n1.252 1.253\n");
+  EXPECT_THAT(read(folder_ / "depth.txt").error->message, HasSubstr("numpy.loadtxt"));
+}
+
 }  // namespace
 }  // namespace relievo
