@@ -135,6 +135,7 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
     }
     due_.uploaded = true;
   }
+  renderer_->setAhead(ahead_);  // also for the rehearsal: what was ahead before may be gone
   if (due_.uploaded && std::exchange(rehearsal_.due, false)) {
     if (auto rehearsed = renderer_->rehearse(surface, *rehearsal_.stop); !rehearsed) return rehearsed;
     words_.forget();
@@ -143,7 +144,6 @@ Result<void> Picture::draw(const DisplaySurface& surface, const FingerMarks& fin
   if (std::exchange(subtitles_changed_, false) || renewed) {
     renderer_->setSubtitles(textFrame(), subtitles_.pictures());
   }
-  renderer_->setAhead(ahead_);
   if (auto captured = captureFrom(surface, fingers); !captured) return captured;
   const TextFrame frame = textFrame();
   if (words_.draw(text_, frame) || renewed) renderer_->setText(frame, words_.pictures());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Subtitles over a picture that stands while the film goes on, as in a slide show.
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include "app/player/screen/film_screen.h"
 #include "drivers/egl/egl.h"
@@ -76,6 +77,22 @@ TEST_F(SubtitlesOfAStandingPicture, StayWhileTheFilmHasNoPlace) {
 TEST_F(SubtitlesOfAStandingPicture, WaitForAPictureThatComesSoon) {
   EXPECT_FALSE(hasWordsWhenShownAt(0));
   EXPECT_FALSE(hasWordsAt(2.1, 2100 * kMs, clock_.now() + 2120 * kMs));
+}
+
+// Before its first picture the drawing is tried several times; nothing is left of the reliefs that came in the film
+// before. Their memory is unmapped when it is freed, so that a use of it ends the test.
+TEST_F(SubtitlesOfAStandingPicture, StandInFrontOfTheirOwnFilmAlone) {
+  ::mallopt(M_MMAP_THRESHOLD, 8192);
+  for (const double width_mm : {160.0, 90.0}) {
+    const auto depth = [](int k) {
+      return test::makeGrayFrame(64, 64, 8, mediaTime(2 + 0.04 * k), [](int c, int) { return 3 * c; });
+    };
+    DepthComing coming{.count = width_mm == 160 ? 8U : 0U};
+    for (int k = 0; k < 8; ++k) coming.frames[static_cast<std::size_t>(k)] = depth(k + 1);
+    screen_.setScene({.bits = 8}, {width_mm, 90, 40}, 40 * kMs, clock_.now());
+    EXPECT_TRUE(screen_.show({.color = depth(0), .depth = depth(0)}, mediaTime(2.5), {}, coming, {}, clock_.now()));
+    EXPECT_TRUE(hasWords());
+  }
 }
 
 // The journal's faults are told on the screen.
