@@ -22,6 +22,7 @@ namespace {
 static_assert(sizeof(off_t) == 8, "build with _FILE_OFFSET_BITS=64");  // else films of over 2 GiB are refused
 
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 20;  // bytes of one question
+constexpr Duration kCancelledPatience = std::chrono::milliseconds(100);
 constexpr const char* kFailed = "reading failed; check the disk";
 
 std::optional<Error> refusalOf(const struct stat& status) noexcept {
@@ -82,8 +83,21 @@ struct AnsweredFile::State {
   // Whether the file system reports what the kernel has cached. Those that may stall do not.
   enum class AtOnce : std::uint8_t { Unknown, Yes, No };
   std::atomic<AtOnce> at_once = AtOnce::Unknown;
-  std::mutex mutex;  // guards what follows
+  std::atomic<Duration> waited_cancelled{Duration(0)};  // for answers to a thread that was cancelled
+  std::mutex mutex;                                     // guards what follows
   std::optional<Error> first_error;
+
+  // As answerOf. A thread that was cancelled gets 0.1 s for all its reads together: a slow mount may answer each in
+  // time.
+  Result<Part> readSlowly(const std::shared_ptr<State>& self, std::uint64_t offset, std::size_t most) {
+    const std::atomic<bool>* const flag = CancelsAnswers::flag();
+    const bool cancelled = flag != nullptr && *flag;
+    if (cancelled && waited_cancelled.load() >= kCancelledPatience) return std::unexpected(kInterrupted);
+    const MonotonicTime begun = MonotonicClock().now();
+    auto part = answerOf(path, [self, offset, most] { return readNow(self->fd.get(), offset, most); });
+    if (cancelled) waited_cancelled = waited_cancelled.load() + (MonotonicClock().now() - begun);
+    return part;
+  }
 
   std::unexpected<Error> noted(const Error& error) {
     const std::scoped_lock lock(mutex);
@@ -131,8 +145,7 @@ Result<std::uint64_t> AnsweredFile::bytes() const {
 Result<std::size_t> AnsweredFile::readSome(std::uint64_t offset, std::span<std::uint8_t> out) const {
   if (const auto at_once = state_->readFromMemory(offset, out)) return *at_once;
   const std::size_t most = std::min(out.size(), kMostAtOnce);
-  const auto part =
-      answerOf(state_->path, [state = state_, offset, most] { return readNow(state->fd.get(), offset, most); });
+  const auto part = state_->readSlowly(state_, offset, most);
   if (!part) return state_->noted(part.error());
   if (part->error != 0) return state_->noted({ErrorCode::Io, part->error, kFailed});
   std::ranges::copy(part->bytes, out.begin());

@@ -12,8 +12,9 @@
 
 namespace relievo {
 
-// What the kernel has in its memory is read at once; all else is asked as file_system_answer.h says. Copies share the
-// open file. A file that stalls is closed on a helper thread.
+// What the kernel has in its memory is read at once; all else is asked as file_system_answer.h says. A thread that is
+// cancelled (CancelsAnswers) waits 0.1 s in all for what it still reads of a file. Copies share the open file. A file
+// that stalls is closed on a helper thread.
 class AnsweredFile {
  public:
   AnsweredFile() = default;  // not open

@@ -11,6 +11,7 @@ import os
 import shutil
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import tempfile
@@ -22,6 +23,7 @@ import stalled_writing
 import stalling_files
 
 SAID = "does not answer within 10 s; check the mount"
+MOST_READS = 100  # of a file of which nothing is wanted any more
 END_S = 120  # for an end of any kind, on a busy machine
 IN_NAMESPACE = "RELIEVO_STALLED_MOUNTS"
 H264 = ("-c:v", "libx264", "-threads", "1", "-pix_fmt", "yuv420p", "-g", "4")
@@ -49,6 +51,18 @@ GIVEN_UP = (
 )
 
 
+def pages(count):
+    """A TIFF of so many pages of 16 gray samples each."""
+    tags, pixels = (256, 257, 258, 262, 273, 277, 278, 279), 8
+    file = struct.pack("<2sHI", b"II", 42, 8 + 16) + bytes(16)
+    for number in range(count):
+        values = (4, 4, 8, 1, pixels, 1, 4, 16)
+        entries = b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in zip(tags, values))
+        file += struct.pack("<H", len(tags)) + entries
+        file += struct.pack("<I", len(file) + 4 if number + 1 < count else 0)
+    return file
+
+
 def make_files(folder, programs):
     """Films, pictures and text files of every kind that the programs read by name."""
     make = seeds.Maker(folder, programs)
@@ -58,6 +72,8 @@ def make_files(folder, programs):
     make.pictures("folder/color/%06d.png", seeds.COLOR)
     make.pictures("folder/depth/%06d.png", seeds.DISTANCE)
     make.bytes("depth.npy", seeds.npy(make.gray16()))
+    make.bytes("pages.tiff", pages(400))
+    make.bytes("large.jpg", b"\xff\xd8\xff\xe1" + bytes(60_000_000))
     make.text("depth.txt", "unit=1\n")
     make.text("list.m3u", "#EXTM3U\nfilm.mkv\n")
     make.text("relievo.toml", "")
@@ -181,6 +197,18 @@ def signal_works(case):
     return at_once(case, "SIGTERM", met, case.code())
 
 
+def quit_works_on_slow(case, file, pause_s):
+    """Each read is answered, and there are many before it is known what the file is."""
+    case.files.slow = {file: pause_s}
+    case.start_player()
+    case.ask("open " + os.path.join(case.place, file))
+    met = case.meets_stall()
+    before = case.files.count("read", file)
+    case.ask("quit")
+    finding, more = at_once(case, "quit", met, case.code()), case.files.count("read", file) - before
+    return finding or (f"{more} reads after quit" if more > MOST_READS else "")
+
+
 def next_open_works(case, operation, file):
     case.files.stall(operation, file)
     case.start_player()
@@ -228,6 +256,8 @@ def author_copies(case):
 AT_ONCE = (
     ("quit", quit_works),
     ("SIGTERM", signal_works),
+    ("quit, while a slow mount shows a film of TIFF", lambda case: quit_works_on_slow(case, "pages.tiff", 0.05)),
+    ("quit, while a slow mount shows a large photo", lambda case: quit_works_on_slow(case, "large.jpg", 0.005)),
     ("the next open, after a look-up", lambda case: next_open_works(case, "lookup", "film.mkv")),
     ("the next open, after the film's folder", lambda case: next_open_works(case, "readdir", "")),
     ("the next open, after subtitles beside the film", lambda case: next_open_works(case, "read", "film.srt")),

@@ -8,6 +8,7 @@ import select
 import stat
 import struct
 import threading
+import time
 
 LOOKUP, FORGET, GETATTR, OPEN, READ, STATFS, RELEASE, FLUSH = 1, 2, 3, 14, 15, 17, 18, 25
 SETATTR, MKDIR, UNLINK, RMDIR, RENAME, WRITE, FSYNC, CREATE, RENAME2 = 4, 9, 10, 11, 12, 16, 20, 35, 45
@@ -48,6 +49,7 @@ class StallingFiles:
         self.shown, self.place = shown, place
         self.paths = {ROOT: ""}
         self.stalls, self.waiting, self.arrived = {}, [], threading.Event()
+        self.slow = {}  # seconds that each read of a file takes, by name
         self.seen = collections.Counter()  # requests by operation and name
         self.guard, self.ending = threading.Lock(), False
         self.fd = os.open("/dev/fuse", os.O_RDWR | os.O_CLOEXEC)
@@ -109,6 +111,10 @@ class StallingFiles:
             self.waiting.append(request)
             self.arrived.set()
             return
+        _, operation, _, node, *_ = IN.unpack_from(request)
+        if operation == READ and self.paths[node] in self.slow:
+            self.arrived.set()
+            time.sleep(self.slow[self.paths[node]])
         self.reply(request, self.handle(request))
 
     def is_stalled(self, request):

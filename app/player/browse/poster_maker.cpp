@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -15,6 +16,7 @@
 #include <utility>
 
 #include "app/media/reading/picture_look.h"
+#include "platform/files/file_system_answer.h"
 
 namespace relievo {
 namespace {
@@ -50,10 +52,15 @@ struct PosterMaker::Shared {
   [[nodiscard]] bool isUnwanted() const;
   [[nodiscard]] std::shared_ptr<const Poster> make(const WishedPoster& film);
   [[nodiscard]] std::shared_ptr<const Poster> find(const std::string& url) const;
+  void interrupt() noexcept {
+    interrupted = true;
+    reader.interrupt();
+  }
 
-  PairReader reader;         // used by the thread, except `interrupt`
-  SourceOptions options;     // likewise
-  mutable std::mutex mutex;  // of all below
+  PairReader reader;                     // used by the thread, except `interrupt`
+  SourceOptions options;                 // likewise
+  std::atomic<bool> interrupted{false};  // ends what is asked of the file system, such as of what kind a file is
+  mutable std::mutex mutex;              // of all below
   std::condition_variable done;
   std::vector<WishedPoster> wishes;
   std::deque<std::pair<std::string, std::shared_ptr<const Poster>>> made;
@@ -72,7 +79,7 @@ PosterMaker::~PosterMaker() {
   std::unique_lock lock(shared_->mutex);
   shared_->stopping = true;
   shared_->wishes.clear();
-  if (!shared_->at.empty()) shared_->reader.interrupt();
+  if (!shared_->at.empty()) shared_->interrupt();
   shared_->done.wait_for(lock, std::chrono::milliseconds(500), [this] { return !shared_->running; });
 }
 
@@ -85,7 +92,7 @@ void PosterMaker::wish(const std::vector<WishedPoster>& films) {
   };
   if (!shared_->at.empty() && !isWished(shared_->at)) {
     shared_->left = true;
-    shared_->reader.interrupt();
+    shared_->interrupt();
   }
   if (films.empty() || std::exchange(shared_->running, true)) return;
   std::thread([shared = shared_] { shared->threadMain(); }).detach();
@@ -94,7 +101,7 @@ void PosterMaker::wish(const std::vector<WishedPoster>& films) {
 bool PosterMaker::attend() {
   if (!shared_) return false;
   const std::scoped_lock lock(shared_->mutex);
-  if (!shared_->at.empty() && std::chrono::steady_clock::now() - shared_->since > kLongest) shared_->reader.interrupt();
+  if (!shared_->at.empty() && std::chrono::steady_clock::now() - shared_->since > kLongest) shared_->interrupt();
   return std::exchange(shared_->news, false);
 }
 
@@ -136,13 +143,14 @@ std::shared_ptr<const Poster> PosterMaker::Shared::make(const WishedPoster& film
 
 // Ends when there is nothing to make, so that there is no such thread while a film is played.
 void PosterMaker::Shared::threadMain() {
+  const CancelsAnswers cancels(interrupted);
   ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNice);
   std::unique_lock lock(mutex);
   while (!stopping) {
     const auto film = nextWish();
     if (!film) break;
     at = film->url;
-    left = false;
+    left = interrupted = false;
     since = std::chrono::steady_clock::now();
     lock.unlock();
     auto poster = make(*film);
