@@ -42,13 +42,6 @@ DepthCalibration recoded(const DepthCalibration& source, int bits, std::optional
   return written;
 }
 
-const char* name(DepthCode code) noexcept {
-  static constexpr std::array kNames{"luma",    "hue",    "turbo",   "jet",      "inferno", "magma",
-                                     "viridis", "plasma", "rainbow", "spectral", "kinect",  "ylgnbu"};
-  static_assert(kNames.size() == kDepthCodes.size());
-  return kNames.at(static_cast<std::size_t>(code));
-}
-
 const char* name(CalibrationOrigin origin) noexcept {
   switch (origin) {
     case CalibrationOrigin::CommandLine:

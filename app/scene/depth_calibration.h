@@ -10,7 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/scene/code_set.h"
+#include "app/scene/codes/code_set.h"
+#include "app/scene/codes/depth_code.h"
 #include "hal/media/frame.h"
 #include "platform/error.h"
 
@@ -21,26 +22,6 @@ enum class DepthLaw : std::uint8_t {
   Inverse,  // Z = 1/(s/near + (1 - s)/far), z = D (far - Z)/(far - near): disparity, near high
 };
 enum class DepthPolarity : std::uint8_t { NearIsHigh, NearIsLow };
-// What a sample's code is: its brightness, its hue, or its place in a colour map.
-enum class DepthCode : std::uint8_t {
-  Luma,
-  Hue,
-  Turbo,
-  Jet,
-  Inferno,
-  Magma,
-  Viridis,
-  Plasma,
-  Rainbow,
-  Spectral,  // from blue to red
-  Kinect,    // black (no depth), blue, cyan, white
-  YlGnBu     // from yellow to blue
-};
-inline constexpr std::array kDepthCodes{DepthCode::Luma,    DepthCode::Hue,      DepthCode::Turbo,   DepthCode::Jet,
-                                        DepthCode::Inferno, DepthCode::Magma,    DepthCode::Viridis, DepthCode::Plasma,
-                                        DepthCode::Rainbow, DepthCode::Spectral, DepthCode::Kinect,  DepthCode::YlGnBu};
-// The word on the command line.
-[[nodiscard]] const char* name(DepthCode code) noexcept;
 
 // s is the normalised code: (code - low)/(high - low) clamped to [0, 1], and 1 minus that if near is low. Full range is
 // 0 .. 2^bits - 1; limited range is 16 .. 235, times 2^(bits - 8); `codes` sets another range. Codes that are

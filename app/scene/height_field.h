@@ -9,10 +9,10 @@
 #include <limits>
 #include <span>
 
+#include "app/scene/codes/sampled_block.h"
 #include "app/scene/color/color_reading.h"
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
-#include "app/scene/sampled_block.h"
 #include "hal/media/frame.h"
 #include "platform/error.h"
 #include "platform/realtime.h"

@@ -45,6 +45,8 @@ struct Room {
 };
 const std::vector<Room>& rooms() {
   static const std::vector<Room> all = {
+      {"app/scene/codes", {}},
+      {"app/scene/color", {"app/scene/codes"}},  // depth in colours
       {"app/scene", {"app/scene"}},
       // where the depth is and what it means: of streams and pictures alone
       {"app/media/reading", {"app/media/reading", "app/scene"}},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/media/reading/known_kind.h"
-#include "app/scene/code_set.h"
+#include "app/scene/codes/code_set.h"
 #include "hal/media/frame.h"
 
 namespace relievo {

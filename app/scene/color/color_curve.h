@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "app/scene/depth_calibration.h"
+#include "app/scene/codes/depth_code.h"
 #include "platform/realtime.h"
 
 namespace relievo {

@@ -9,12 +9,12 @@
 #include <limits>
 #include <span>
 
-#include "app/scene/code_set.h"
+#include "app/scene/codes/code_set.h"
+#include "app/scene/codes/sampled_block.h"
 #include "app/scene/color/color_curve.h"
 #include "app/scene/color/color_samples.h"
 #include "app/scene/color/color_table.h"
 #include "app/scene/color/color_tile.h"
-#include "app/scene/sampled_block.h"
 #include "hal/media/frame.h"
 #include "platform/realtime.h"
 

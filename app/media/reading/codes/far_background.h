@@ -6,7 +6,7 @@
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_reading.h"
-#include "app/scene/code_set.h"
+#include "app/scene/codes/code_set.h"
 #include "app/scene/depth_calibration.h"
 
 namespace relievo {

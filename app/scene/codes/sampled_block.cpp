@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evenly spaced and centred places along a length.
-#include "app/scene/sampled_block.h"
+#include "app/scene/codes/sampled_block.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/scene/code_set.h"
+#include "app/scene/codes/code_set.h"
 
 #include <algorithm>
 
