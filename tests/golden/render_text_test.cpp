@@ -236,5 +236,37 @@ TEST(AssText, LinesOfHugeLettersAreLeftOutWhichIsSaidOnce) {
   EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
 }
 
+// Squares 2788 high in a script of 720 rows: each covers 15 of the screen's.
+TEST(AssText, LinesThatTogetherCoverTheScreenOver128TimesAreLeftOut) {
+  auto made = AssText::create(true);
+  if (!made) GTEST_SKIP() << made.error().message;
+  AssText& text = *made;
+  for (const int lines : {8, 9}) {
+    text.begin(kHead);
+    for (int i = 0; i < lines; ++i)
+      text.add("0,0,Default,,0,0,0,,{\\an7\\pos(900,500)\\p1}m 0 0 l 2788 0 2788 2788 0 2788", Duration(0),
+               std::chrono::seconds(9));
+    text.add(kCorner, Duration(0), std::chrono::seconds(9));
+    std::vector<TextPicture> pictures;
+    testing::internal::CaptureStderr();
+    text.draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+    const std::string told = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(isInTheCorner(pictures), lines == 8) << lines;
+    EXPECT_EQ(told.find("larger than the screen") != std::string::npos, lines == 9) << told;
+  }
+}
+
+// Lines in a head are no part of it, and would not be measured.
+TEST(AssText, AHeadShowsNothing) {
+  auto made = AssText::create(true);
+  if (!made) GTEST_SKIP() << made.error().message;
+  made->begin(std::string(kHead) +
+              "[Events]\nFormat: Layer, Start, End, Style, Name, MarginL, MarginR, MarginV, Effect, "
+              "Text\nDialogue: 0,0:00:00.00,0:00:09.00,Default,,0,0,0,,seen\n");
+  std::vector<TextPicture> pictures;
+  made->draw({.width = 1280, .height = 720, .aspect = 16.0 / 9}, Duration(0), pictures);
+  EXPECT_TRUE(pictures.empty());
+}
+
 }  // namespace
 }  // namespace relievo::test

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/render/text/letter_area.h"
+#include "app/render/text/shortened_script.h"
 #include "platform/log.h"
 
 namespace relievo {
@@ -100,32 +101,6 @@ double processorS() noexcept {
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-// The first lines of a script, so many that at most `most` are seen at `now_ms`, while it lives.
-class Shortened {
- public:
-  Shortened(ASS_Track& track, long long now_ms, int most) noexcept : track_(track), all_(track.n_events) {
-    int end = 0;
-    for (; end < all_; ++end) {
-      const ASS_Event& line = track.events[end];
-      if (now_ms < line.Start || now_ms >= line.Start + line.Duration) continue;
-      if (seen_ == most) break;
-      ++seen_;
-    }
-    track.n_events = end;
-  }
-  ~Shortened() { track_.n_events = all_; }
-  Shortened(const Shortened&) = delete;
-  Shortened& operator=(const Shortened&) = delete;
-
-  [[nodiscard]] int seen() const noexcept { return seen_; }
-  [[nodiscard]] bool all() const noexcept { return track_.n_events == all_; }
-
- private:
-  ASS_Track& track_;
-  const int all_;
-  int seen_ = 0;
-};
-
 struct MissingLetter {
   char32_t letter = 0;
   bool heard = false;
@@ -158,20 +133,21 @@ struct AssText::Parts {
   std::unique_ptr<ASS_Renderer, FreeRenderer> renderer;
   std::unique_ptr<ASS_Track, FreeTrack> track;
   std::optional<TextFrame> frame;
+  std::vector<double> areas;  // letterArea of each line of a foreign script
   bool foreign = false;
   int at_once = 1, most_at_once = kMostAtOnce;  // lines; the latter fewer once it was slow
   bool told = false;
 
   const ASS_Image* render(long long now_ms, int& changed);
   void leaveOut(int most);
-  void leaveOutHugeLine();
+  void measureLast();
 };
 
 // Twice as many lines are tried while they are quick: scripts that cost too much are shown in part.
 const ASS_Image* AssText::Parts::render(long long now_ms, int& changed) {
   if (!foreign) return ass_render_frame(renderer.get(), track.get(), now_ms, &changed);
   for (;;) {
-    const Shortened script(*track, now_ms, std::min(at_once, most_at_once));
+    const Shortened script(*track, areas, now_ms, std::min(at_once, most_at_once));
     const double begun_s = processorS();
     int differs = 0;
     const ASS_Image* const images = ass_render_frame(renderer.get(), track.get(), now_ms, &differs);
@@ -179,7 +155,7 @@ const ASS_Image* AssText::Parts::render(long long now_ms, int& changed) {
     const bool slow = processorS() - begun_s > kMostCostS;
     if (script.seen() == 0 && script.all()) most_at_once = std::max(most_at_once, 1);  // what follows may be quick
     if (slow && (told || script.seen() > 1)) leaveOut(script.seen() / 2);  // a single one may have loaded fonts
-    else if (!script.all() && at_once < most_at_once) {
+    else if (!script.all() && !script.full() && at_once < most_at_once) {
       at_once *= 2;
       continue;
     } else if (!script.all()) leaveOut(most_at_once);
@@ -194,9 +170,12 @@ void AssText::Parts::leaveOut(int most) {
         "subtitles take too long to draw, or are larger than the screen; some of their lines are left out");
 }
 
-// The one that was added last.
-void AssText::Parts::leaveOutHugeLine() {
-  if (track->n_events == 0 || letterArea(track->events[track->n_events - 1], *track) <= kMostArea) return;
+// The line that was added last, if it is one. Leaves it out if it is huge.
+void AssText::Parts::measureLast() {
+  if (static_cast<std::size_t>(track->n_events) == areas.size()) return;
+  areas.push_back(letterArea(track->events[track->n_events - 1], *track));
+  if (areas.back() <= kMostArea) return;
+  areas.pop_back();
   ass_free_event(track.get(), --track->n_events);
   leaveOut(most_at_once);
 }
@@ -230,9 +209,11 @@ void AssText::begin(std::string_view head) {
   parts_->at_once = 1;
   parts_->most_at_once = kMostAtOnce;
   parts_->told = false;
+  parts_->areas.clear();
   if (!parts_->track) return;
   std::string copy(head);
   ass_process_codec_private(parts_->track.get(), copy.data(), static_cast<int>(copy.size()));
+  ass_flush_events(parts_->track.get());  // a head has no lines; what is there was not measured
   ass_set_check_readorder(parts_->track.get(), 0);
   ass_track_set_feature(parts_->track.get(), ASS_FEATURE_WRAP_UNICODE, 1);
 }
@@ -243,11 +224,12 @@ void AssText::add(std::string_view line, Duration begin, Duration length) {
   std::string copy(line);
   ass_process_chunk(parts_->track.get(), copy.data(), static_cast<int>(copy.size()), milliseconds(begin),
                     milliseconds(length));
-  if (parts_->foreign) parts_->leaveOutHugeLine();
+  if (parts_->foreign) parts_->measureLast();
 }
 
 void AssText::removeLines() {
   if (parts_->track) ass_flush_events(parts_->track.get());
+  parts_->areas.clear();
 }
 
 void AssText::setSize(double factor) noexcept {
