@@ -15,6 +15,7 @@ namespace relievo {
 namespace {
 
 constexpr std::size_t kQueued = 4;
+constexpr std::size_t kQueuedBytes = std::size_t{64} << 20;  // unless one picture alone is larger
 constexpr int kMaxHeldFrames = 64;
 constexpr std::uint64_t kLongestSide = 32768;
 constexpr Duration kDefaultPeriod = std::chrono::milliseconds(40);
@@ -119,7 +120,9 @@ class PictureFileDecoder final : public VideoDecoder {
   }
 
   Result<Feed> feedPacket(const Packet& packet) override {
-    if (queue_.size() >= kQueued) return Feed::Full;
+    std::size_t bytes = packet.bytes;
+    for (const Packet& queued : queue_) bytes += queued.bytes;
+    if (queue_.size() >= kQueued || (!queue_.empty() && bytes > kQueuedBytes)) return Feed::Full;
     queue_.push_back(packet);
     return Feed::Accepted;
   }

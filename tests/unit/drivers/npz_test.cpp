@@ -146,5 +146,20 @@ TEST_F(Npz, AnArrayThatEndsEarlyIsTold) {
   }
 }
 
+// Of 4096 x 4096 numbers of 8 bytes. Nobody reads them here.
+TEST(NpzDecoder, HoldsOneLargePictureAndSeveralSmallOnes) {
+  const auto accepted = [](std::size_t bytes) {
+    const auto decoder = drivers::makeSoftwareDecoder({.kind = StreamKind::Video, .codec = "npy"});
+    EXPECT_TRUE(decoder->open({.kind = StreamKind::Video, .codec = "npy"}));
+    const std::uint8_t nothing = 0;
+    int packets = 0;
+    while (decoder->feed({.data = &nothing, .bytes = bytes}) == Feed::Accepted) ++packets;
+    return packets;
+  };
+  EXPECT_EQ(accepted(134'000'000), 1);
+  EXPECT_EQ(accepted(30'000'000), 2);
+  EXPECT_EQ(accepted(1'000'000), 4);
+}
+
 }  // namespace
 }  // namespace relievo
