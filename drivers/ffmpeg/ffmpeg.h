@@ -21,8 +21,8 @@ namespace relievo {
 // "?udp".
 //
 // A read returns Timeout after ten seconds without data, or after three for a real-time stream (rtsp, rtp, udp, tcp);
-// opening times out after a minute. `interrupt` ends every wait within a tenth of a second, except for a name server. A
-// real-time stream without a duration never ends: when its data stop it is Lost.
+// opening times out after a minute. `interrupt` ends every wait within a tenth of a second; one for a name server
+// leaves its thread behind. A real-time stream without a duration never ends: when its data stop it is Lost.
 //
 // Of several programmes (a broadcast multiplex, the bit rates of an adaptive stream) the best one is the film; the
 // streams of the others are listed as Other. So are cover pictures.
@@ -58,8 +58,9 @@ void boundFfmpegBlocks() noexcept;
 // (PGS, DVB, DVD). Text that is no UTF-8 is taken for Latin-1.
 [[nodiscard]] std::unique_ptr<SubtitleDecoder> makeFfmpegSubtitleDecoder();
 
-// Returns the text at a path or an address (http, https); Corrupt if it is longer than `most_bytes`. May wait as long
-// as opening a source; Cancelled soon after the flag is set.
+// Returns the text at a path or an address (http, https), or from a pipe; Corrupt if it is longer than `most_bytes`.
+// Timeout if it has not come whole within 30 s; Cancelled soon after the flag is set, even while a server's name is
+// looked up.
 [[nodiscard]] Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes,
                                                  const std::atomic<bool>& cancelled);
 

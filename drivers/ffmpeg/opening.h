@@ -11,10 +11,8 @@
 
 namespace relievo::ffmpeg {
 
-// FFmpeg looks at a file with a million tags, or for the name of a server, for minutes in which nothing can interrupt
-// it. So each input is opened apart: `open` fails at the latest a moment after its time-out or an interrupt, and the
-// thread ends by itself. Of such threads there are at most eight: then `open` is Exhausted. All calls on one thread,
-// except `interrupt`.
+// Each input is opened apart (apart.h): `open` fails at the latest a moment after its time-out or an interrupt.
+// Exhausted if too many are left behind. All calls on one thread, except `interrupt`.
 class Opener {
  public:
   // Lets go of the input, and of an interrupt. Its container must be closed.

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads the text at an address through libavformat's protocols.
 #include <array>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "drivers/ffmpeg/address.h"
+#include "drivers/ffmpeg/apart.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
+#include "drivers/ffmpeg/refusal.h"
+#include "drivers/ffmpeg/watch.h"
 #include "platform/files/answered_file.h"
 
 extern "C" {
@@ -22,6 +27,11 @@ namespace {
 
 constexpr const char* kTooLong = "it is too long for a text file; check the address";
 
+Error lateText(Way way) noexcept {
+  if (way != Way::Pipe) return kLateAnswer;
+  return {ErrorCode::Timeout, 0, "the list did not come whole through the pipe within 30 s; check what writes to it"};
+}
+
 Result<std::string> readFile(const std::string& path, std::size_t most_bytes) {
   const auto file = AnsweredFile::open(path);
   if (!file)
@@ -33,24 +43,21 @@ Result<std::string> readFile(const std::string& path, std::size_t most_bytes) {
   return std::string(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*got));
 }
 
-}  // namespace
+// The thread that reads may be left behind: it shares this.
+struct Reading {
+  Watch watch;
+  Result<std::string> text;
+};
 
-Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
-  silenceLibrary();
-  const auto cancel = [](void* flag) { return static_cast<const std::atomic<bool>*>(flag)->load() ? 1 : 0; };
-  const AVIOInterruptCB interrupt{.callback = cancel, .opaque = const_cast<std::atomic<bool>*>(&cancelled)};
-  auto address = parseAddress(url);
-  if (!address) return std::unexpected(address.error());
+Result<std::string> fetch(const Address& address, std::size_t most_bytes, Watch& watch) {
   const LibraryWords words;
   const auto explain = [&](int code) {
-    if (cancelled) return Error{ErrorCode::Cancelled, 0, "interrupted while waiting for the text"};
-    return address->remote() ? networkError(code, words.last()) : openError(code);
+    return watch.explain(address.remote() ? networkError(code, words.last()) : openError(code));
   };
-  if (address->way == Way::File) return readFile(localPathOf(address->url), most_bytes);
-  if (address->way == Way::Pipe) *address = {"file:" + url, Way::File};
-  AVDictionary* options = optionsFor(*address);
+  const AVIOInterruptCB interrupt{.callback = Watch::callback, .opaque = &watch};
+  AVDictionary* options = optionsFor(address);
   AVIOContext* file = nullptr;
-  const int opened = avio_open2(&file, address->url.c_str(), AVIO_FLAG_READ, &interrupt, &options);
+  const int opened = avio_open2(&file, address.url.c_str(), AVIO_FLAG_READ, &interrupt, &options);
   av_dict_free(&options);
   if (opened < 0) return std::unexpected(explain(opened));
 
@@ -64,6 +71,30 @@ Result<std::string> readFfmpegText(const std::string& url, std::size_t most_byte
   if (got < 0 && got != AVERROR_EOF) return std::unexpected(explain(got));
   if (text.size() > most_bytes) return fail(ErrorCode::Corrupt, kTooLong);
   return text;
+}
+
+}  // namespace
+
+Result<std::string> readFfmpegText(const std::string& url, std::size_t most_bytes, const std::atomic<bool>& cancelled) {
+  silenceLibrary();
+  auto address = parseAddress(url);
+  if (!address) return std::unexpected(address.error());
+  if (address->way == Way::File) return readFile(localPathOf(address->url), most_bytes);
+  const Error late = lateText(address->way);
+  if (address->way == Way::Pipe) *address = {"file:" + url, Way::File};
+  const auto reading = std::make_shared<Reading>();
+  Watch& watch = reading->watch;
+  watch.begin(kOpenPatience, late);
+  const auto work = [reading, address = *address, most_bytes] {
+    reading->text = fetch(address, most_bytes, reading->watch);
+  };
+  const auto ended = runApart(work, [&] {
+    if (cancelled) watch.cancel();
+    return watch.givesUp();
+  });
+  if (!ended) return std::unexpected(ended.error());
+  if (*ended) return std::move(reading->text);
+  return std::unexpected(watch.explain(late));
 }
 
 }  // namespace relievo

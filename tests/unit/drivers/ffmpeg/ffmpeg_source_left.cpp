@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings that FFmpeg does not end: it waits for the name of a server.
+// Openings and texts that FFmpeg does not end: it waits for the name of a server, or for whoever writes to a pipe.
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <netdb.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <string_view>
 #include <thread>
 
+#include "platform/unique_fd.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
@@ -51,6 +54,35 @@ TEST(FfmpegSource, AtMostEightOpeningsAreLeftBehind) {
     opens = makeFfmpegSource()->open(folder / "a.mkv").has_value();
   }
   EXPECT_TRUE(opens) << "the others have ended";
+}
+
+// The thread is left behind: the name is still asked for.
+TEST(FfmpegText, IsGivenUpWhileItsServersNameIsLookedUp) {
+  name_server_is_silent = true;
+  const int before = asking;
+  std::atomic<bool> cancelled = false;
+  std::thread user([&] {
+    while (asking == before) std::this_thread::sleep_for(1ms);
+    cancelled = true;
+  });
+  const auto text = readFfmpegText("http://silent.invalid/list.m3u8", 1 << 20, cancelled);
+  user.join();
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, ErrorCode::Cancelled);
+  EXPECT_EQ(asking, before + 1);
+  name_server_is_silent = false;
+  while (asking > before) std::this_thread::sleep_for(1ms);
+}
+
+TEST(FfmpegText, IsGivenUpWhileNobodyWritesToItsPipe) {
+  const test::TemporaryFolder folder;
+  const std::string pipe = folder / "list.m3u8";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto text = readFfmpegText(pipe, 1 << 20, true);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, ErrorCode::Cancelled);
+  // Ends the thread that was left, once it waits for the pipe.
+  while (!UniqueFd(::open(pipe.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC)).valid()) std::this_thread::sleep_for(1ms);
 }
 
 }  // namespace
