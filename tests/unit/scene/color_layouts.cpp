@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "app/scene/height_field.h"
-#include "hal/media/frame.h"
+#include "tests/unit/scene/hue_frames.h"
 
 namespace relievo {
 namespace {
 
-constexpr DepthCalibration kHue{.polarity = DepthPolarity::NearIsHigh, .code = DepthCode::Hue};
-constexpr DisplayVolume kUnit{160, 108, 1};  // a height is a hue
+using test::kHue;
+using test::kUnit;
+
 constexpr int kCols = 48, kRows = 32;
 
 struct Layout {
@@ -35,8 +36,8 @@ double hueAt(double c, double r) {
 }
 // Luma and chroma of BT.709, 0 to 1.
 std::array<double, 3> colorAt(int c, int r) {
-  const auto part = [&](double n) { return std::clamp(std::abs(std::fmod(6 * hueAt(c, r) + n, 6) - 3) - 1, 0.0, 1.0); };
-  const double red = part(0), green = part(4), blue = part(2), luma = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  const auto [red, green, blue] = test::hue(hueAt(c, r));
+  const double luma = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
   return {luma, (blue - luma) / 1.8556 + 128.0 / 255, (red - luma) / 1.5748 + 128.0 / 255};
 }
 
@@ -51,13 +52,7 @@ Frame make(const Layout& layout) {
     at[0] = static_cast<std::uint8_t>(code);
     if (size == 2) at[1] = static_cast<std::uint8_t>(code >> 8);
   };
-  Frame frame;
-  frame.width = kCols;
-  frame.height = kRows;
-  frame.model = ColorModel::Yuv;
-  frame.range = ColorRange::Full;
-  frame.matrix = ColorMatrix::Bt709;
-  frame.chroma_shift_x = frame.chroma_shift_y = layout.halved ? 1 : 0;
+  Frame frame = test::bt709Frame(kCols, kRows, layout.halved ? 1 : 0);
   for (std::uint8_t i = 0; i < 3; ++i) {
     const bool second = i == 2;
     const std::ptrdiff_t behind = second && !layout.interleaved ? std::ptrdiff_t{size} * cols * rows : 0;
