@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,17 +45,6 @@ PairReader::Backends realBackends(drivers::DecoderMaker make_decoder = drivers::
           .read_text = drivers::readText,
           .make_audio_decoder = drivers::makeAudioDecoder,
           .make_subtitle_decoder = drivers::makeSubtitleDecoder};
-}
-
-std::optional<double> askForReading(double asked_n) {
-  for (;;) {
-    std::printf("Requested force: %.0f N. The scale shows (N): ", asked_n);
-    std::fflush(stdout);
-    std::string line;
-    if (!std::getline(std::cin, line) || line.empty()) return std::nullopt;
-    if (const auto shown_n = newtonsIn(line)) return shown_n;
-    std::puts("That is no number. Type newtons, such as 2.7; an empty line gives up.");
-  }
 }
 
 drivers::HapticSettings settingsOf(const FileConfig& config) {

@@ -1,13 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// A film that this machine cannot decode in time: which pictures are left out, and what is reported; how late one is.
+// A film whose next picture is not there in time: what is left out where this machine is too slow to decode it, when
+// the picture stops for its source, and how late one is.
 #include "app/player/film/film_playback.h"
+
+#include <algorithm>
 
 namespace relievo {
 namespace {
 
 constexpr Duration kAfterHurry = std::chrono::milliseconds(300);  // how much of the film a hurry gains on the clock
 
+constexpr Duration kStillStands = std::chrono::seconds(5);
+constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // nothing is behind a live film's newest picture
+
 }  // namespace
+
+// A pair that is less than a period late is shown late; after that the film waits for its source. The delay counts from
+// the moment when the pair was missed, not from the last picture, which may have taken long to draw.
+FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
+  if (!head_.ahead().empty()) {
+    dry_since_.reset();
+    return Progress::Goes;
+  }
+  if (head_.last()) {
+    const MediaTime position = clock_.position(now).value_or(MediaTime{});
+    MediaTime end = picture().color.pts + (isStill() ? kStillStands : period());
+    if (rushes()) end = std::max(end, MediaTime(info_.duration));  // the last key frame stands for what follows it
+    const bool shown = position >= end;
+    const bool sounds = rate_ == 1 && sound_.end() > position;  // longer than the picture
+    return shown && !sounds ? overOrFailed() : Progress::Goes;
+  }
+  if (!dry_since_) dry_since_ = now;
+  const Duration patience = isLive() ? 4 * period() + kLivePatience : 2 * period();
+  // If the decoder is too slow, stopping would not help: it leaves out pictures until it is in time.
+  if (now < *dry_since_ + patience || waitsForDecoder()) return Progress::Goes;
+  dry_since_.reset();
+  starved_ = true;
+  countPlayed(now);
+  return Progress::Starved;
+}
 
 void FilmPlayback::followDecoder(MonotonicTime now) {
   const auto position = clock_.position(now);

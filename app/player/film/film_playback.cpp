@@ -14,8 +14,6 @@ static_assert(Playhead::kAhead == SurfaceWindow::kAhead, "the window shows what 
 constexpr std::size_t kQueuedPairs = 4;  // beyond those that the playhead holds
 constexpr Duration kUnknownPeriod = std::chrono::milliseconds(40);
 constexpr Duration kSoundFirst = std::chrono::milliseconds(300);  // that must be buffered when the film starts
-constexpr Duration kStillStands = std::chrono::seconds(5);
-constexpr Duration kLivePatience = std::chrono::milliseconds(100);  // nothing is behind a live film's newest picture
 constexpr double kRushStepS = 0.1;  // of the machine's time, between two pictures at a rate over 1
 
 }  // namespace
@@ -144,31 +142,6 @@ std::size_t FilmPlayback::advance(MonotonicTime now) {
   if (pictures > 0) reliefs_.passed(picture().color.pts);
   followDecoder(now);
   return stepped + pictures;
-}
-
-// A pair that is less than a period late is shown late; after that the film waits for its source. The delay counts from
-// the moment when the pair was missed, not from the last picture, which may have taken long to draw.
-FilmPlayback::Progress FilmPlayback::going(MonotonicTime now) {
-  if (!head_.ahead().empty()) {
-    dry_since_.reset();
-    return Progress::Goes;
-  }
-  if (head_.last()) {
-    const MediaTime position = clock_.position(now).value_or(MediaTime{});
-    MediaTime end = picture().color.pts + (isStill() ? kStillStands : period());
-    if (rushes()) end = std::max(end, MediaTime(info_.duration));  // the last key frame stands for what follows it
-    const bool shown = position >= end;
-    const bool sounds = rate_ == 1 && sound_.end() > position;  // longer than the picture
-    return shown && !sounds ? overOrFailed() : Progress::Goes;
-  }
-  if (!dry_since_) dry_since_ = now;
-  const Duration patience = isLive() ? 4 * period() + kLivePatience : 2 * period();
-  // If the decoder is too slow, stopping would not help: it leaves out pictures until it is in time.
-  if (now < *dry_since_ + patience || waitsForDecoder()) return Progress::Goes;
-  dry_since_.reset();
-  starved_ = true;
-  countPlayed(now);
-  return Progress::Starved;
 }
 
 void FilmPlayback::seek(MediaTime target, MonotonicTime now) {

@@ -175,7 +175,7 @@ class FilmPlayback {
   void followReliefs();
   [[nodiscard]] bool hasReliefs() const;
   void gatherReliefs(DepthAround& around) const;
-  // In film_late.cpp.
+  // In film_late.cpp, with `going`.
   void followDecoder(MonotonicTime now);
   [[nodiscard]] bool waitsForDecoder() const noexcept;
   // In film_live.cpp.

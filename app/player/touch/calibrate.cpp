@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A constant force, ticked by the cyclic thread while the user reads the scale.
+// A constant force, ticked by the cyclic thread while the user reads the scale and types what it shows.
 #include "app/player/touch/calibrate.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <string_view>
 #include <vector>
 
@@ -100,6 +102,17 @@ std::optional<double> newtonsIn(std::string line) {
   if (end == line.c_str() || !std::isfinite(number)) return std::nullopt;
   const bool all = std::string_view(end).find_first_not_of(" \tN") == std::string_view::npos;
   return all ? std::optional(number) : std::nullopt;
+}
+
+std::optional<double> askForReading(double asked_n) {
+  for (;;) {
+    std::printf("Requested force: %.0f N. The scale shows (N): ", asked_n);
+    std::fflush(stdout);
+    std::string line;
+    if (!std::getline(std::cin, line) || line.empty()) return std::nullopt;
+    if (const auto shown_n = newtonsIn(line)) return shown_n;
+    std::puts("That is no number. Type newtons, such as 2.7; an empty line gives up.");
+  }
 }
 
 }  // namespace relievo

@@ -22,6 +22,8 @@ using ReadScale = std::function<std::optional<double>(double asked_n)>;
 [[nodiscard]] Result<double> measureStrength(HapticDevice& device, const ReadScale& readScale, Clock& clock,
                                              bool own_thread = true);
 
+// Asks the user at the terminal for the scale's reading; nullopt for an empty line, or none.
+[[nodiscard]] std::optional<double> askForReading(double asked_n);
 // Parses what the user has typed: a number, with a point or a comma, with or without "N" behind it.
 [[nodiscard]] std::optional<double> newtonsIn(std::string line);
 
