@@ -61,6 +61,7 @@ void FilmFeed::begin(State state) {
   request_.target = MediaTime{};
   request_.leave_out = false;
   request_.until.reset();
+  request_.turn = 0;
   films_.clear();
   seek_error_.reset();
   news_ = {};
@@ -97,6 +98,12 @@ void FilmFeed::leaveOut(bool unreferenced, std::optional<MediaTime> until) {
   const std::scoped_lock lock(mutex_);
   request_.leave_out = unreferenced;
   request_.until = until;
+}
+
+void FilmFeed::turn(int turn) {
+  const std::scoped_lock lock(mutex_);
+  request_.turn = turn;
+  for (FramePair& pair : queue_) turnTo(pair, turn);
 }
 
 FilmFeed::Effort FilmFeed::effort() const {

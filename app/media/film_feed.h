@@ -68,6 +68,8 @@ class FilmFeed {
   [[nodiscard]] State state() const;
   // Like PairReader::leaveOut, before the next pair is read. Sound is then read ahead of late pictures.
   void leaveOut(bool unreferenced, std::optional<MediaTime> until = {});
+  // Turns all pairs from now on, those that are queued too, by so many quarters in all (turnTo); until `open`.
+  void turn(int turn);
   // How busy the reader is.
   struct Effort {
     Duration rested{0};    // total time in which its thread had nothing to do; 0 without Backends::clock
@@ -121,7 +123,7 @@ class FilmFeed {
   void workOpen(const SourceOptions& options, std::uint64_t generation);
   [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
-  void workRead(std::uint64_t generation);
+  void workRead(int turn, std::uint64_t generation);
   void workReopen();
   void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words, bool words_due);
   [[nodiscard]] bool changesWords() const { return request_.tracks_due && request_.words != info_.words; }
@@ -154,6 +156,7 @@ class FilmFeed {
     std::optional<std::size_t> sound, words;
     bool leave_out = false;
     std::optional<MediaTime> until;  // once
+    int turn = 0;
   };
   Request request_;  // what was asked for last
   struct Counts {

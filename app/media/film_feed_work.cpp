@@ -55,6 +55,7 @@ bool FilmFeed::work() {
   } else {
     // Where pictures are late, sound must not wait for them.
     const bool pair = wantsPair(), sound = wantsSound();
+    const int turn = request_.turn;
     const bool sound_first = request_.leave_out && sound_.ahead() < kSoundAhead / 2;
     const bool leave_out = request_.leave_out;
     const auto until = std::exchange(request_.until, std::nullopt);
@@ -62,7 +63,7 @@ bool FilmFeed::work() {
     if (leave_out != left_out_ || until) reader_.leaveOut(leave_out, until);
     left_out_ = leave_out;
     const bool sounded = sound && workSound(!pair || sound_first, generation);
-    if (pair && !sounded) workRead(generation);
+    if (pair && !sounded) workRead(turn, generation);
   }
   lock.lock();
   counts_.at_work = 0;
@@ -148,8 +149,9 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
   state_ = State::Reading;
 }
 
-void FilmFeed::workRead(std::uint64_t generation) {
+void FilmFeed::workRead(int turn, std::uint64_t generation) {
   auto pair = reader_.next();
+  if (pair && *pair) turnTo(**pair, turn);
   if (hear_live_ && pair && *pair && (*pair)->taken) hear_live_(**pair);
   auto words = readWords();
   const PairCounters counters = reader_.counters();
@@ -170,6 +172,7 @@ void FilmFeed::workRead(std::uint64_t generation) {
     return;
   }
   queue_.push_back(std::move(**pair));
+  turnTo(queue_.back(), request_.turn);  // another turn may have been asked for meanwhile
 }
 
 // Decodes sound that has already been read, and reads more if `may_read`. False when there was nothing to do.

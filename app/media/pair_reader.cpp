@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/media/pairs/pair_film.h"
+#include "app/media/tracks/turned.h"
 
 namespace relievo {
 namespace {
@@ -12,6 +13,16 @@ namespace {
 constexpr const char* kNotOpen = "no film is open; open one first";
 
 }  // namespace
+
+void turnTo(FramePair& pair, int turn) noexcept {
+  const int quarters = (turn - pair.turn) & 3;
+  if (quarters == 0) return;
+  for (Frame* const frame : {&pair.color, &pair.depth, &pair.right, &pair.material}) {
+    if (frame->empty()) continue;
+    if (auto made = turned(*frame, quarters)) *frame = std::move(*made);
+  }
+  pair.turn = turn;
+}
 
 PairCounters& PairCounters::operator+=(const PairCounters& other) noexcept {
   pairs += other.pairs;

@@ -56,7 +56,12 @@ struct FramePair {
   Frame material;                      // of the film's material track; empty: none at this time
   Duration delay{0};                   // live films: from being captured to being read
   bool stands = false;  // only the depth is new: the colour picture was left out, `color` has only its time
+  int turn = 0;         // by so many quarters it was turned with `turnTo`, clockwise
 };
+
+// Turns the pair's pictures until it is turned by `turn` quarters in all, 0 to 3. One that there is no memory for
+// stays.
+void turnTo(FramePair& pair, int turn) noexcept;
 
 struct FilmInfo {
   int color_stream = 0;  // StreamInfo::index

@@ -49,6 +49,11 @@ void Playhead::begin() {
   held_ = present_.depth;
 }
 
+void Playhead::turn(int turn) noexcept {
+  turnTo(present_, turn);
+  for (FramePair& pair : ahead_) turnTo(pair, turn);
+}
+
 void Playhead::attach(const Frame& depth) {
   for (FramePair& pair : ahead_) {
     if (pair.color.pts != depth.pts) continue;

@@ -34,6 +34,8 @@ class Playhead {
   void begin();
   // Drops the first buffered pair, as of a live film whose oldest is too old.
   void skip() { ahead_.pop_front(); }
+  // Turns the present pair and those that are buffered (turnTo).
+  void turn(int turn) noexcept;
   // Drops the buffered pairs; the present pair stays.
   void clear() {
     ahead_.clear();

@@ -148,6 +148,8 @@ class Player {
   void followProgress(FilmPlayback::Progress progress, MonotonicTime now);
   void rushNoMore(MonotonicTime now);
   void begin(MonotonicTime now);
+  void beginScene(MonotonicTime now);
+  void turnPicture(int quarters, MonotonicTime now);
   void announce(const DisplayVolume& volume);
   [[nodiscard]] std::string firstHint() const;
   void tellDoubts(MonotonicTime now);
@@ -214,6 +216,7 @@ class Player {
   std::vector<std::string> words_to_add_;  // subtitle files, once the film is open
   FilmDoubts doubts_;
   LoopAB loop_ab_;
+  int scene_turns_ = 0;  // FilmPlayback::turns, of the scene that is shown and felt
 
   PlayerState state_ = PlayerState::Boot;
   std::optional<Failure> failure_;  // of a film that could not be played, until another one opens

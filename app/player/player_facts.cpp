@@ -141,6 +141,7 @@ ScreenFacts Player::facts() const {
           .subtitle_size = screen_.subtitles().size(),
           .chapter = chapterWords(film_.info().chapters, film_.goal(parts_.clock.now())),
           .aspect = screen_.aspectWord(),
+          .turned_degrees = 90 * film_.turns(),
           .full_screen = screen_.isFullScreen(),
           .buttons = barButtons(),
           .loop_from_s = secondsOf(loop_ab_.from()),

@@ -154,13 +154,11 @@ void Player::rushNoMore(MonotonicTime now) {
 // drawing delays nothing.
 void Player::begin(MonotonicTime now) {
   if (film_.takeFirst()) {
-    const DisplayVolume volume = config_.volume.value_or(usualBox(film_.picture().color, film_.picture().depth));
-    const DepthCalibration& calibration = film_.info().calibration.calibration;
-    touch_.setScene(calibration, volume, film_.info().material, film_.info().material_scale);
+    beginScene(now);
     touch_.setLookAhead(film_.lookAhead());
-    screen_.setScene(calibration, volume, film_.period(), now);
-    announce(volume);
     screen_.setFirstHint(firstHint());
+  } else if (scene_turns_ != film_.turns()) {
+    beginScene(now);
   }
   if (film_.takeJump()) touch_.beginEpoch();
   const MediaTime first = film_.picture().color.pts;
@@ -176,6 +174,27 @@ void Player::begin(MonotonicTime now) {
   apply(film_.held() ? PlayerEvent::FilledHeld : PlayerEvent::Filled);
   feedTouch();
   seeks_.shown(first, now, parts_.clock.now());
+}
+
+// In the shape of the present picture.
+void Player::beginScene(MonotonicTime now) {
+  scene_turns_ = film_.turns();
+  DisplayVolume volume = config_.volume.value_or(usualBox(film_.picture().color, film_.picture().depth));
+  if (config_.volume && scene_turns_ % 2 != 0) std::swap(volume.width_mm, volume.height_mm);
+  const DepthCalibration& calibration = film_.info().calibration.calibration;
+  touch_.setScene(calibration, volume, film_.info().material, film_.info().material_scale);
+  screen_.setScene(calibration, volume, film_.period(), now);
+  announce(volume);
+}
+
+// The force begins anew on the surface that is turned.
+void Player::turnPicture(int quarters, MonotonicTime now) {
+  touch_.rest();
+  film_.turn(quarters);
+  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;  // `begin` does the rest
+  beginScene(now);
+  if (film_.takeJump()) touch_.beginEpoch();
+  showPicture(now);
 }
 
 // Does not mention a missing device, or one without anything to feel.

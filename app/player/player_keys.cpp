@@ -35,11 +35,11 @@ int pagesBy(std::uint16_t code) noexcept {
 }
 
 // Commands that need what only an open film has: pictures, a length, depth, tracks, chapters.
-constexpr std::array kOfAnOpenFilm{PlayerVerb::DepthBy,      PlayerVerb::ScreenBy,  PlayerVerb::Step,
-                                   PlayerVerb::StepBack,     PlayerVerb::Faster,    PlayerVerb::Slower,
-                                   PlayerVerb::NormalSpeed,  PlayerVerb::SeekShare, PlayerVerb::AudioTrack,
-                                   PlayerVerb::ChapterBy,    PlayerVerb::LoopAB,    PlayerVerb::SubtitleTrack,
-                                   PlayerVerb::ShowSubtitles};
+constexpr std::array kOfAnOpenFilm{PlayerVerb::DepthBy,       PlayerVerb::ScreenBy,  PlayerVerb::Step,
+                                   PlayerVerb::StepBack,      PlayerVerb::Faster,    PlayerVerb::Slower,
+                                   PlayerVerb::NormalSpeed,   PlayerVerb::SeekShare, PlayerVerb::AudioTrack,
+                                   PlayerVerb::ChapterBy,     PlayerVerb::LoopAB,    PlayerVerb::SubtitleTrack,
+                                   PlayerVerb::ShowSubtitles, PlayerVerb::RotateBy};
 
 // What the film itself does not have.
 std::optional<std::string> lack(const PlayerCommand& command, double rate, const FilmInfo& film) {
@@ -50,6 +50,9 @@ std::optional<std::string> lack(const PlayerCommand& command, double rate, const
   if (is(PlayerVerb::Faster) && rate >= 1 && !has_length) return "a live film has no fast forward";
   if ((is(PlayerVerb::DepthBy) || is(PlayerVerb::ScreenBy)) && !film.has_depth)
     return "this film has no depth to change";
+  if (is(PlayerVerb::RotateBy) && hasTwoViews(film.packing)) {
+    return "a film of two views cannot be turned";  // its disparities are sideways
+  }
   const bool sound = command.verb == PlayerVerb::AudioTrack;
   if (!sound && command.verb != PlayerVerb::SubtitleTrack) return std::nullopt;
   const std::size_t tracks = sound ? film.sounds.size() : film.subtitles.size();
@@ -211,6 +214,7 @@ void Player::obey(const PlayerCommand& command, MonotonicTime now) {
 
 void Player::obeyPicture(const PlayerCommand& command, MonotonicTime now) {
   screen_.obey(command);
+  if (command.verb == PlayerVerb::RotateBy) turnPicture(static_cast<int>(command.value) / 90, now);
   for (const Deed& deed : deedsFor(command, situation(now))) carryOut(deed, now);
 }
 

@@ -28,8 +28,8 @@ SLEW_N_PER_S, PEAK_N = 50, 8.5  # of the scene; of the strongest simulated devic
 SANITIZER = re.compile(r"ERROR: \w+Sanitizer|runtime error:|WARNING: ThreadSanitizer")
 KEPT = ("play", "pause", "play-pause", "step", "step-back", "faster", "slower", "normal-speed", "next", "previous",
         "loop on", "loop off", "layout", "swap-eyes", "info", "statistics", "keys", "mute", "audio", "subtitles",
-        "chapter +1", "ab-loop", "aspect", "zoom +0.1", "zoom -0.1", "depth +0.1", "screen +2", "screen -2",
-        "volume -5", "status", "metrics on", "metrics off", "stop")
+        "chapter +1", "ab-loop", "aspect", "rotate +90", "zoom +0.1", "zoom -0.1", "depth +0.1", "screen +2",
+        "screen -2", "volume -5", "status", "metrics on", "metrics off", "stop")
 
 
 class Unreliable(http.server.BaseHTTPRequestHandler):

@@ -214,7 +214,7 @@ void PlayerHabits::subtitles() {
   EXPECT_TRUE(test::until([&] { return !hasWords(150, 185); }));
   expectAfter("v", "subtitles", "1 of 2, de, film.de.srt");
   EXPECT_TRUE(test::until([&] { return hasWords(150, 185); })) << "above the bar of the paused film";
-  expectAfter("v", "subtitles", "off");
+  expectAfter("t", "subtitles", "off");                      // Kodi's
   expectAfter("j", "subtitles", "1 of 2, de, film.de.srt");  // what was hidden, before the next
   expectAfter("j", "subtitles", "2 of 2, en, film.en.srt");
   EXPECT_TRUE(test::until([&] { return hasWords(150, 185); }));
@@ -235,6 +235,11 @@ void PlayerHabits::picture() {
   for (const char* word : {"4:3", "2.35:1", "film"}) expectAfter("a", "aspect", word);
   expectAfter("e", "zoom", 1.1);
   expectAfter("w", "zoom", 1);
+  expectAfter("r", "rotation", 90);
+  EXPECT_TRUE(test::until([&] { return at(10, 120)[0] < 30 && isFilm(at(160, 120)); }))
+      << "black beside a tall picture";
+  for (const int degrees : {180, 270, 0}) expectAfter("r", "rotation", degrees);
+  EXPECT_TRUE(test::until([&] { return isFilm(at(10, 120)); }));
   expectAfter("Tab", "stereo", "sbs");
   expectAfter("y", "swap_eyes", true);
   expectAfter("k", "depth_strength", 0.9);  // of the viewer's own table

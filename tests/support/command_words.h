@@ -17,6 +17,7 @@ inline std::string wordsOf(const PlayerCommand& command) {
     case PlayerVerb::DepthBy:
     case PlayerVerb::ScreenBy:
     case PlayerVerb::ZoomBy:
+    case PlayerVerb::RotateBy:
     case PlayerVerb::VolumeBy:
     case PlayerVerb::AudioDelayBy:
     case PlayerVerb::SubtitleDelayBy:

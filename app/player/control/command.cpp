@@ -76,6 +76,11 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
       const auto value = quantityIn(operand);
       return value ? std::optional(PlayerCommand{entry.verb, *value}) : std::nullopt;
     }
+    case Operand::Turn: {
+      const auto value = quantityIn(operand);
+      const bool good = value && (std::abs(*value) == 90 || std::abs(*value) == 180 || std::abs(*value) == 270);
+      return good ? std::optional(PlayerCommand{entry.verb, *value}) : std::nullopt;
+    }
     case Operand::Level:
       return levelIn(operand);
     case Operand::Row:
@@ -101,8 +106,8 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
 }
 
 const char* formOf(Operand operand) noexcept {
-  constexpr std::array kForms{"",        "+X|-X",        "+S|-S|S|P%",       "URL",   "[on|off]",    "[WORD]",
-                              "+P|-P|P", "[N|previous]", "[N|previous|off]", "[W:H]", "+N|-N|N|last"};
+  constexpr std::array kForms{"",        "+X|-X",        "+S|-S|S|P%",       "URL",   "[on|off]",     "[WORD]",
+                              "+P|-P|P", "[N|previous]", "[N|previous|off]", "[W:H]", "+N|-N|N|last", "+90|-90"};
   return kForms[static_cast<std::size_t>(operand)];
 }
 

@@ -39,6 +39,7 @@ enum class PlayerVerb : std::uint8_t {
   ScreenBy,  // mm, the whole scene towards the viewer
   ZoomBy,    // factor on the picture's size in its view, added
   Aspect,    // the picture's shape: "film", "16:9", "4:3", "2.35:1"; without a word the next one
+  RotateBy,  // degrees clockwise, of the picture: 90, 180 or 270, or back
   Info,      // toggles the bar on the screen
   Statistics,
   Keys,             // shows what each key means now

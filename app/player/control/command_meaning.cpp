@@ -52,6 +52,8 @@ std::string meaningOf(const PlayerCommand& command) {
            : command.value == 1 ? "the first film"
                                 : print("film %.0f", command.value);
   }
+  if (command.verb == PlayerVerb::RotateBy)
+    return print(command.value < 0 ? "turn it %.0f° back" : "turn the picture %.0f°", std::abs(command.value));
   if (command.verb == PlayerVerb::VolumeBy)
     return print("%.6g %% %s", std::abs(command.value), command.value < 0 ? "quieter" : "louder");
   if (command.verb == PlayerVerb::VolumeTo) return print("%.6g %s", command.value, entry.meaning);

@@ -127,6 +127,7 @@ std::string statusLine(const std::string& id, const ScreenFacts& facts, const st
   json["depth_strength"] = rounded(facts.stereo.strength);
   json["zoom"] = rounded(facts.stereo.zoom);
   json["aspect"] = facts.aspect;
+  json["rotation"] = facts.turned_degrees;
   json["full_screen"] = facts.full_screen;
   json["volume"] = rounded(facts.volume_percent);
   json["muted"] = facts.muted;

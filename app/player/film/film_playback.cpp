@@ -65,6 +65,7 @@ void FilmPlayback::close(MonotonicTime now) {
   held_ = begun_ = sought_ = starved_ = false;
   decode_pace_ = {};
   stepped_ = 0;
+  turn_ = 0;
   jumped_ = true;
   target_.reset();
   dry_since_.reset();
@@ -114,6 +115,13 @@ FilmPlayback::Progress FilmPlayback::filling() {
   const MediaTime from = std::max(head_.ahead().front().color.pts, target_.value_or(MediaTime{}));
   const bool sounds = rate_ != 1 || feed_.hasSoundUntil(from + kSoundFirst);
   return sounds ? Progress::Ready : Progress::Goes;
+}
+
+void FilmPlayback::turn(int quarters) {
+  turn_ = (turn_ + quarters) & 3;
+  feed_.turn(turn_);
+  head_.turn(turn_);
+  jumped_ = true;
 }
 
 bool FilmPlayback::takeFirst() {

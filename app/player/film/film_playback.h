@@ -106,6 +106,12 @@ class FilmPlayback {
   // The film has ended: its end is not kept as the place where the viewer left it.
   void forgetPlace() noexcept { clock_.reset(); }
 
+  // Turns the pictures clockwise by so many quarters more, until the film is closed; those that were read, too. Call
+  // only for a film of one view.
+  void turn(int quarters);
+  // 0 to 3.
+  [[nodiscard]] int turns() const noexcept { return turn_; }
+
   // The next subtitle that has been read.
   [[nodiscard]] std::optional<Subtitle> takeSubtitle() { return feed_.takeSubtitle(); }
   // Chooses other tracks, by their places in `info`; seek to the present position afterwards.
@@ -200,6 +206,7 @@ class FilmPlayback {
   bool sought_ = false;  // since it was opened
   bool held_ = false;
   double rate_ = 1;  // over 1: by key frames, without touch
+  int turn_ = 0;     // quarters, clockwise
   bool jumped_ = true;
   std::optional<MediaTime> target_;         // of a seek whose first picture has not been shown yet
   std::optional<MonotonicTime> dry_since_;  // since when no picture is buffered

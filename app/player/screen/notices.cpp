@@ -51,6 +51,8 @@ std::optional<ScreenNotice> noticeOf(const PlayerCommand& command, const ScreenF
       return words(print("Zoom %.0f %%", 100 * facts.stereo.zoom));
     case PlayerVerb::Aspect:
       return words("Shape: " + facts.aspect);
+    case PlayerVerb::RotateBy:
+      return words(facts.turned_degrees == 0 ? "Not turned" : print("Turned by %d°", facts.turned_degrees));
     case PlayerVerb::VolumeBy:
     case PlayerVerb::VolumeTo:
     case PlayerVerb::Mute:

@@ -39,8 +39,9 @@ struct ScreenFacts {
   bool muted = false;
   std::string sound_track, subtitle_track;  // "2 of 3, jpn, Director"; "off"
   double sound_delay_s = 0, subtitle_delay_s = 0, subtitle_size = 1;
-  std::string chapter;  // where the film is, or is sought: "2 of 4, The Nose"; empty: it has none
-  std::string aspect;   // the shape's word
+  std::string chapter;     // where the film is, or is sought: "2 of 4, The Nose"; empty: it has none
+  std::string aspect;      // the shape's word
+  int turned_degrees = 0;  // clockwise, by the viewer: 0, 90, 180 or 270
   bool full_screen = false;
   std::vector<PlayerVerb> buttons;               // that the bar has for a mouse; empty without one
   std::optional<double> loop_from_s, loop_to_s;  // of an A-B loop

@@ -26,6 +26,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
                                 V::AudioDelayBy, V::SubtitleDelayBy, V::ChapterBy, V::SubtitleSizeBy};
       if (command.verb == V::SelectBy) command.value = value < 0 ? -1 : 10;
       if (command.verb == V::SelectTo) command.value = 3;
+      if (command.verb == V::RotateBy) command.value = value < 0 ? -90 : 90;
       if (stepped.contains(command.verb)) command.value = value;
       if (command.verb == V::SeekTo || command.verb == V::VolumeTo) command.value = 75.25;
       if (command.verb == V::SeekShare) command.value = 0.5;
@@ -37,7 +38,7 @@ TEST(Command, EachHasWordsThatReadBackAsItself) {
       all.insert(wordsOf(command));
     }
   }
-  EXPECT_EQ(all.size(), 54U);  // no two alike; ten with either sign
+  EXPECT_EQ(all.size(), 56U);  // no two alike; eleven with either sign
 }
 
 TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
@@ -46,6 +47,14 @@ TEST(Command, ASeeksNumberSaysWhatItCountsFrom) {
   EXPECT_EQ(parseCommand("seek 10"), (PlayerCommand{V::SeekTo, 10}));
   EXPECT_EQ(parseCommand("seek 50%"), (PlayerCommand{V::SeekShare, 0.5}));
   EXPECT_EQ(parseCommand("seek 0%"), (PlayerCommand{V::SeekShare, 0}));
+}
+
+TEST(Command, APictureIsTurnedByQuarters) {
+  EXPECT_EQ(parseCommand("rotate 90"), (PlayerCommand{V::RotateBy, 90}));
+  EXPECT_EQ(parseCommand("rotate -270"), (PlayerCommand{V::RotateBy, -270}));
+  for (const char* words : {"rotate", "rotate 45", "rotate 0", "rotate 360"})
+    EXPECT_FALSE(parseCommand(words)) << words;
+  EXPECT_EQ(meaningOf({V::RotateBy, -90}), "turn it 90° back");
 }
 
 TEST(Command, WhatTurnsCanAlsoBeSet) {

@@ -60,6 +60,7 @@ const std::map<int, std::string> kMeanings{
     {31, "screenshot"},
     {17, "zoom -0.1"},
     {18, "zoom +0.1"},
+    {19, "rotate +90"},
     {30, "aspect"},
     {24, "info"},
     {23, "statistics"},
