@@ -197,7 +197,7 @@ void PlayerHabits::soundAndVolume() {
   EXPECT_TRUE(test::until([&] { return isAccent(at(20, static_cast<int>(85 * kRow))); })) << "the level's bar";
   expectAfter("9", "volume", 100);
   expectAfter("m", "muted", true);
-  expectAfter("m", "muted", false);
+  expectAfter("F8", "muted", false);  // Kodi's
   screen_->moveMouse(place_.x + 160, place_.y + 80);
   for (const unsigned wheel : {4U, 5U}) {
     click(wheel);
@@ -246,6 +246,10 @@ void PlayerHabits::picture() {
   EXPECT_EQ(control_->ask("layout mono")["ok"], true);
   press("s");
   EXPECT_TRUE(test::until([&] { return std::filesystem::exists(folder_ / "relievo-film-0001.png"); }));
+  expectAfter("backslash", "full_screen", true);  // Kodi's
+  expectAfter("backslash", "full_screen", false);
+  EXPECT_TRUE(test::until([&] { return screen_->place(window_).value_or(test::XScreen::Place{}).width == kWidth; }));
+  show("A film - relievo");
   for (int k = 0; k < 2; ++k) click(1);
   EXPECT_TRUE(test::until([&] { return status()["full_screen"] == true; })) << "a double click";
   expectAfter("Escape", "full_screen", false);

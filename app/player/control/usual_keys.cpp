@@ -5,7 +5,8 @@
 namespace relievo {
 namespace {
 
-// A keyboard's keys are mpv's where both players do the same, a remote control's are Kodi's.
+// A keyboard's keys are mpv's where both players do the same, and Kodi's where mpv has others; a remote control's are
+// Kodi's.
 constexpr std::string_view kUsual = R"([always]
 # a keyboard
 SPACE = "play-pause"
@@ -13,6 +14,7 @@ P = "play-pause"
 SHIFT_P = "info"
 F = "full-screen"
 F11 = "full-screen"
+BACKSLASH = "full-screen"
 ESC = "escape"
 Q = "quit"
 RIGHT = "seek +5"
@@ -48,7 +50,9 @@ KPMINUS = "volume -5"
 KPASTERISK = "volume +5"
 KPSLASH = "volume -5"
 M = "mute"
+F8 = "mute"
 V = "show-subtitles"
+T = "show-subtitles"
 J = "subtitles"
 SHIFT_J = "subtitles previous"
 Z = "subtitle-delay -0.1"
