@@ -48,7 +48,8 @@ struct DeviceProfile {
   // device's own damping b outweighs that up to K = 2 b/((1 + 2 n) T). (Colgate and Schenkel 1994 for n = 0.)
   [[nodiscard]] double viscousBound() const RELIEVO_RT;
   // 2 f_c/step: the stiffness up to which dry friction absorbs the force of one encoder step (Abbott and Okamura 2005,
-  // eq. 16). Infinite without an encoder or without friction: a limit cycle is then one encoder step at any stiffness.
+  // eq. 16). Infinite where the bound does not apply: without an encoder, and without friction, where the device
+  // oscillates by one encoder step at any stiffness.
   [[nodiscard]] double frictionBound() const RELIEVO_RT;
 };
 

@@ -79,11 +79,12 @@ void addTrace(CLI::App& app, TraceOptions& options) {
              {"mean", TimeLaw::Mean}},
             "The surface between frames [the method's own]\nhold: the newest frame; linear: the paper's; bspline, "
             "fitted: splines; adapted: the fitted one where it adds more than noise, else bspline; mean: of five "
-            "frames; these four only for relievo on smooth patches");
+            "frames. bspline, fitted, adapted and mean work only with relievo on smooth patches");
   addChoice(app, "--guard", options.guard,
             {{"off", TraceGuard::Off}, {"threshold", TraceGuard::Threshold}, {"full", TraceGuard::Full}},
-            "Limits on the force [the method's own]\noff: nothing; threshold: the paper's; full: all limits of the "
-            "haptic task");
+            "Limits on the force [the method's own]\noff: nothing; threshold: the paper's guard, which releases the "
+            "finger when the "
+            "force jumps; full: all limits of the haptic task");
 }
 
 int runTraceCommand(const TraceOptions& options) {

@@ -51,7 +51,7 @@ Result<void> DepthSource::connect() {
   if (auto opened = reader_->open(url_, frames_per_s_); !opened) return opened;
   const MediaSource& source = reader_->source();
   const StreamInfo* const stream = findDepthTrack(source);
-  if (stream == nullptr) return fail(ErrorCode::NotFound, "there is no video in it");
+  if (stream == nullptr) return fail(ErrorCode::NotFound, "it has no video track; check the file");
   StreamInfo told = *stream;
   if (frames_per_s_ && stream->counted) told.frame_period = fromSeconds(1 / *frames_per_s_);
   const auto track = reader_->select(told);

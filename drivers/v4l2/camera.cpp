@@ -109,7 +109,7 @@ Result<void> Camera::identify(int device) {
   v4l2_capability is{};
   if (control(device, VIDIOC_QUERYCAP, &is) < 0) {
     return fail(errno == ENODEV ? ErrorCode::NotFound : ErrorCode::Unsupported,
-                "it is no camera; ls /dev/video* lists the cameras", errno);
+                "it is not a V4L2 device; cameras are /dev/video0, /dev/video1, ..", errno);
   }
   const std::uint32_t can = (is.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? is.device_caps : is.capabilities;
   if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0 || (can & V4L2_CAP_STREAMING) == 0) {

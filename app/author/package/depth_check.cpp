@@ -167,13 +167,14 @@ bool DepthCheck::compare(const AVFrame& decoded) {
 
 const char* whyTooFar(const DepthLoss& loss) noexcept {
   if (exceeds(loss.enhancing, kEnhanced)) {
-    return "enhancement moved the relief by over 1 N in the median: leave out --enhance";
+    return "enhancement changes the force by over 1 N in the median: leave out --enhance";
   }
   if (exceeds(loss.rounding, kCodes)) {
     return "its codes are too coarse for the depth (over .3 N in the median, or 1 N at p99): try more --depth-bits";
   }
   if (exceeds(loss.coding, kCodes)) {
-    return "coding moved the relief (by over .3 N in the median or 1 N at p99, or over 5 % to holes or back): try "
+    return "coding changes the force (by over .3 N in the median or 1 N at p99), or makes holes or closes them (over 5 "
+           "%): try "
            "--depth-crf 0";
   }
   return nullptr;

@@ -44,10 +44,20 @@ AVCodecID textOf(FilmKind kind) noexcept {
 }
 
 const char* nameOf(FilmKind kind) noexcept {
-  if (isTransport(kind)) return "a transport stream";
-  if (kind == FilmKind::Hls) return "an HLS film";
-  if (kind == FilmKind::Mov) return "QuickTime";
-  return kind == FilmKind::Matroska ? "Matroska" : "MP4";
+  switch (kind) {
+    case FilmKind::Matroska:
+      return "Matroska";
+    case FilmKind::Mp4:
+      return "MP4";
+    case FilmKind::Mov:
+      return "QuickTime";
+    case FilmKind::TransportStream:
+    case FilmKind::Live:
+      return "a transport stream";
+    case FilmKind::Hls:
+      return "an HLS film";
+  }
+  return "";
 }
 
 }  // namespace relievo

@@ -9,9 +9,9 @@
 
 namespace relievo {
 
-// Each proxy is a proxy graph's, on one unchanged frame. Over the time of one frame the blended proxy moves from the
-// one on the frame before to the one on the present frame: smooth, and about one frame late. The method is meant for
-// surfaces that deform a little: it does not notice a surface that rises past the proxy.
+// A proxy graph finds each of the two proxies, on a frame that does not change. Over one frame period the blended proxy
+// moves from the previous frame's proxy to the present frame's: smooth, and about one frame late. The method is meant
+// for surfaces that deform a little: it does not notice a surface that rises past the proxy.
 class ProxyBlend final : public TouchMethod {
  public:
   ProxyBlend(double stiffness_n_per_mm, double jump_threshold_n) noexcept

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene of overlapping objects that are known completely: each eye sees parts that are hidden from the front.
+// A scene of overlapping objects. It is known everywhere, also where the front view hides a surface that one eye sees.
 #pragma once
 
 #include <cstdint>

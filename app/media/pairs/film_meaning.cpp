@@ -38,7 +38,7 @@ void FilmMeaning::begin() {
   form_ = {.order = options.as != nullptr ? options.as->order : SampleOrder::AsStored,
            .registrar = std::move(form_.registrar)};
   kind_ = nullptr;
-  other_pictures_ = false;
+  views_disproved_ = false;
   clues_.place = lookAtTags(source.tags());
   if (clues_.place.kind == nullptr) clues_.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));
   film_.info.reading = {};

@@ -83,7 +83,7 @@ class FilmMeaning {
   DepthClues clues_;  // of the depth, as far as they were looked at
   StoredForm form_;
   const KnownKind* kind_ = nullptr;  // that the picture showed before it was put in order
-  bool other_pictures_ = false;      // what was said to be two views is not
+  bool views_disproved_ = false;     // the user declared two views, but the pictures do not show one scene
   bool wants_exchange_ = false;
   bool reach_open_ = false;  // near and far come from a few pictures, and nothing beyond them was reported yet
 };

@@ -138,7 +138,7 @@ void FilmMeaning::checkViews(const StreamInfo& color, const Frame& picture) {
   const Frame look = scout_.tellingPicture(picture, film_.options.url, color.index);
   const auto seen = viewsOf(look, film_.info.packing, form_.right_first);
   if (!seen || !areOtherPictures(seen->left, seen->right)) return;
-  other_pictures_ = true;
+  views_disproved_ = true;
   film_.info.reading.doubts.emplace_back(kOtherPictures);
 }
 
@@ -154,7 +154,7 @@ void FilmMeaning::readViews(const StreamInfo& color, const std::deque<Frame>& pi
 
 // Depth that is made of each pair's views after it was read.
 void FilmMeaning::takeDepthFromViews() {
-  if (film_.options.depth_from != DepthFrom::Views || other_pictures_) return;
+  if (film_.options.depth_from != DepthFrom::Views || views_disproved_) return;
   if (!hasTwoViews(film_.info.packing)) {
     film_.info.reading.doubts.emplace_back(film_.info.has_depth ? kHasDepth : kOneView);
     return;
@@ -180,8 +180,9 @@ bool FilmMeaning::lookForAlpha(const StreamInfo& color, const Frame& look) {
   }
   film_.info.packing = Packing::Alpha;
   clues_.packing_by = CalibrationOrigin::FirstPicture;
-  clues_.why.push_back(print("depth in the alpha channel: %d shades, %.0f %% of it neither transparent nor opaque",
-                             alpha->shades, 100 * alpha->between));
+  clues_.why.push_back(
+      print("depth in the alpha channel: %d shades, %.0f %% of its samples neither transparent nor opaque",
+            alpha->shades, 100 * alpha->between));
   return true;
 }
 

@@ -41,8 +41,8 @@ struct DepthMeaning {
 // codes' meaning was stated.
 [[nodiscard]] const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<const Frame> later = {});
 
-// `kind`: kindOf; `look`: a depth picture that is not blank, its samples in the kind's order; `later`: further ones, so
-// that near and far hold for the whole film. Errors as chooseCalibration.
+// `kind`: what kindOf returned. `look`: a depth picture that is not blank, with its samples in the order of `kind`.
+// `later`: further depth pictures; near and far cover them too. Fails with the errors of chooseCalibration.
 [[nodiscard]] Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                                                std::span<const Frame> later = {});
 // True if near, far or the range of codes come from the pictures examined, so that later pictures may lie beyond them.

@@ -100,7 +100,7 @@ Error noPicture(const MediaSource& source) noexcept {
     return {ErrorCode::NotFound, 0,
             "it holds subtitles; give the film: a subtitle file of its name is found beside it"};
   }
-  return {ErrorCode::NotFound, 0, "there is no video in it"};
+  return {ErrorCode::NotFound, 0, "it has no video track; check the file"};
 }
 
 // Colour and depth.
@@ -246,7 +246,8 @@ Result<Halves> splitPacked(const Frame& picture, Packing packing, DepthCode code
   const int start = alignUp(whole - (whole - seam) / 2, beside ? second.chroma_shift_x : second.chroma_shift_y);
   const int half = whole - start;
   const bool empty = half < 1 || picture.width < 1 || picture.height < 1;
-  if (empty) return fail(ErrorCode::Unsupported, "the picture is too small to be packed colour and depth");
+  if (empty)
+    return fail(ErrorCode::Unsupported, "the picture is too small to hold both colour and depth; check --packing");
   const auto cut = [&](const Frame& from, bool first) {
     if (beside) return crop(from, first ? 0 : start, 0, half, from.height);
     return crop(from, 0, first ? 0 : start, from.width, half);

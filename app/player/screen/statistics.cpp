@@ -29,7 +29,7 @@ std::string colorOf(const FilmInfo& film) {
   return hdr == nullptr ? "SDR" : print("HDR (%s), mapped to SDR by ITU-R BT.2390", hdr);
 }
 
-// "eng [deu] 3": those without a language by their numbers, the chosen one in brackets.
+// "eng [deu] 3": tracks by language, or by number if they have none; the chosen track is in brackets.
 std::string listOf(const std::vector<FilmTrack>& tracks, std::optional<std::size_t> chosen) {
   std::string list;
   for (std::size_t i = 0; i < tracks.size(); ++i) {

@@ -7,7 +7,7 @@ namespace relievo {
 inline constexpr const char* kAbout =
     "relievo: 3D video you can touch. Plays colour + depth video; a force-feedback device lets you feel its relief.\n";
 inline constexpr const char* kProgramAbout =
-    "\n  relievo film.mkv          plays it: in a window on a desktop, else on the screen\n"
+    "\n  relievo film.mkv          plays it: in a window on a desktop; without a desktop, on the whole screen\n"
     "  relievo                   shows a list of films to choose from\n"
     "  relievo help COMMAND      shows the options of a command; `relievo help play` begins with the most frequent "
     "uses\n";
@@ -15,7 +15,8 @@ inline constexpr const char* kProgramFooter =
     "\nExamples:\n"
     "  relievo film.mkv                               in a window; press into the picture with the mouse to feel it\n"
     "  relievo probe scan.mov --packing tb --depth-code hue\n"
-    "                                                 what is in it: colour on top, depth as hue below\n"
+    "                                                 what the file contains; you say that colour is on top\n"
+    "                                                 and depth, as hue, below it\n"
     "  relievo devices                                which devices are there, and why one cannot be used\n"
     "  relievo selftest                               tests this installation, without any hardware\n"
     "\nTo play a file that is named like a command, give its path, such as ./play. `relievo-author --help` tells how\n"

@@ -10,7 +10,7 @@ SampledBlock::Places::Places(int length, int most) RELIEVO_RT : count(length) {
   if (length <= most) return;
   count = most + ((length ^ most) & 1);  // same parity as the length
   step = length / count;
-  if (count % 2 == 0 && step % 2 == 0) {  // an even number is centred with an odd step only
+  if (count % 2 == 0 && step % 2 == 0) {  // the length is even too: a centred place needs an odd step
     ++step;
     while (step * (count - 1) >= length) count -= 2;
   }

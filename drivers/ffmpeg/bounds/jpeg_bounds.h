@@ -9,7 +9,7 @@ namespace relievo::ffmpeg {
 // Each took 2 ms in a picture of 4096 x 4096. libjpeg writes 10, and its own fuzzers end at 500.
 inline constexpr int kMostScans = 500;
 inline constexpr const char* kTooManyScans =
-    "it is a JPEG with more than 500 scans, the most that it may have; save it anew: jpegtran -copy all FILE > new.jpg";
+    "the JPEG has more than 500 scans, which is the limit; save it anew: jpegtran -copy all FILE > new.jpg";
 
 // Which bound it exceeds, or null. A packet may begin with something else, and may hold two fields.
 [[nodiscard]] const char* exceededJpegBound(const Readable& packet);

@@ -117,7 +117,7 @@ TEST_F(AuthorDepthTooFar, CodingThatMovesTheReliefFailsTheRun) {
   const std::string words = "--color @/color.mkv --depth @/depth.mkv -o @/out.mkv --force --depth-crf ";
   const auto failed = run(words + "51");
   EXPECT_EQ(failed.exit_code, 1);
-  EXPECT_THAT(failed.err, HasSubstr("out.mkv: coding moved the relief"));
+  EXPECT_THAT(failed.err, HasSubstr("out.mkv: coding changes the force"));
   EXPECT_THAT(failed.err, EndsWith("try --depth-crf 0\n"));
   EXPECT_EQ(readFilm(folder_ / "out.mkv").pairs.size(), 30u) << "the film is there all the same";
   const auto exact = run(words + "0");
