@@ -171,7 +171,10 @@ class FfmpegDecoder final : public VideoDecoder {
       picture = std::move(*converted);
     }
     Frame frame = frameOf(std::move(picture), sample_aspect_);
-    if (floats) frame.value_per_code = converter_.valuePerCode();
+    if (floats) {
+      frame.value_per_code = converter_.scale().valuePerCode();
+      frame.value_at_zero = converter_.scale().valueAtZero();
+    }
     frame.pts = pts;
     frame.duration = duration;
     return frame;

@@ -162,10 +162,12 @@ class PictureFileDecoder final : public VideoDecoder {
       reading.gray = true;
       reading.component = 2;
     }
-    if (!reading.plain && reading.gray) {
+    if (reading.gray) {
       const std::size_t begin = reading.component;
       const auto codes = FloatCodes::chosenFor([&](std::size_t i) { return first.samples[begin + i * step]; },
                                                first.samples.size() / step);
+      if (codes && codes->valueAtZero() != 0) reading.plain = false;
+      if (reading.plain) return reading;
       reading.decided = codes.has_value();
       if (codes) reading.codes = *codes;
     }
@@ -175,10 +177,7 @@ class PictureFileDecoder final : public VideoDecoder {
   // nullopt for a picture of fewer components than the film's first one.
   std::optional<Frame> frameOf(const FilePicture& picture) {
     if (!picture.frame.empty()) return picture.frame;
-    if (!reading_ || !reading_->decided) {
-      reading_ = readingOf(picture);
-      if (reading_->gray) sayNegative(picture);
-    }
+    if (!reading_ || !reading_->decided) reading_ = readingOf(picture);
     if (!reading_->gray && picture.components == 3) return colorFrame(picture);
     const auto step = static_cast<std::size_t>(picture.components);
     if (reading_->component >= step) return std::nullopt;
@@ -191,35 +190,17 @@ class PictureFileDecoder final : public VideoDecoder {
     }
     if (beyond) sayBeyond();
     Frame frame = grayFrame(std::make_shared<const Codes>(std::move(codes)), picture.width, picture.height);
-    if (!reading_->plain) frame.value_per_code = reading_->codes.valuePerCode();
+    if (!reading_->plain) {
+      frame.value_per_code = reading_->codes.valuePerCode();
+      frame.value_at_zero = reading_->codes.valueAtZero();
+    }
     return frame;
   }
 
   void sayBeyond() {
     if (std::exchange(reading_->said_beyond, true)) return;
     log(LogLevel::Warning, "media", "values beyond %g, the range of the film's first picture, are cut to it",
-        kTop * std::abs(reading_->codes.valuePerCode()));
-  }
-
-  // Heights on both sides of a zero, such as a terrain's. A single number below 0 is a way to say "nothing there".
-  void sayNegative(const FilePicture& picture) const {
-    constexpr double kLeast = 0.02;
-    const auto step = static_cast<std::size_t>(picture.components);
-    std::size_t below = 0, all = 0;
-    float lowest = 0, first = 0;
-    for (std::size_t i = reading_->component; i < picture.samples.size(); i += step, ++all) {
-      const float value = picture.samples[i];
-      if (!(value < 0) || value <= -FloatCodes::kNothingThere) continue;
-      if (below++ == 0) first = value;
-      lowest = value != first ? std::min(lowest, value) : lowest;
-    }
-    const double share = static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(1, all));
-    if (reading_->codes.valuePerCode() < 0 || lowest == 0 || share < kLeast) return;
-    log(LogLevel::Warning, "media",
-        "%.0f %% of the numbers are below 0 (down to %g) and become holes; if they are heights, add a number that "
-        "lifts all "
-        "of them above 0, and give --as heights",
-        100 * share, static_cast<double>(std::min(lowest, first)));
+        kTop * std::abs(reading_->codes.valuePerCode()) + reading_->codes.valueAtZero());
   }
 
   Result<void> startDrain() override {

@@ -11,8 +11,11 @@ namespace {
 
 constexpr std::size_t kMostExamined = 1 << 16;  // samples of the first picture
 constexpr double kOutliers = 0.002;
-constexpr double kAloneFactor = 10;     // the value of "nothing there" is so many times the next smaller one
-constexpr double kCodesInUse = 0x7fff;  // half of them: later pictures may reach farther
+constexpr double kLeastBelow = 0.02;     // of the values of a film that has some on both sides of 0
+constexpr std::size_t kConstant = 4;     // the lowest value stands for "nothing there" if one in so many below 0 has it
+constexpr double kFirstOfLifted = 1024;  // the code of its lowest value: later pictures may reach lower
+constexpr double kAloneFactor = 10;      // the value of "nothing there" is so many times the next smaller one
+constexpr double kCodesInUse = 0x7fff;   // half of them: later pictures may reach farther
 
 // 1, 2 or 5 times a power of ten, at least `least`.
 double roundUp(double least) noexcept {
@@ -23,28 +26,51 @@ double roundUp(double least) noexcept {
   return 10 * power;
 }
 
-// The evenly spaced samples that are numbers and no hole, sorted.
-std::vector<float> examined(const std::function<float(std::size_t)>& sample, std::size_t count, bool& turned) {
+// The evenly spaced samples that are numbers, sorted, by their sign and without it.
+struct Examined {
   std::vector<float> positive, negative;
+};
+Examined examined(const std::function<float(std::size_t)>& sample, std::size_t count) {
+  auto [positive, negative] = Examined{};
   const std::size_t step = std::max<std::size_t>(1, count / kMostExamined);
   for (std::size_t i = 0; i < count; i += step) {
     const float value = sample(i);
     if (value > 0 && value < FloatCodes::kNothingThere) positive.push_back(value);
     if (value < 0 && value > -FloatCodes::kNothingThere) negative.push_back(-value);
   }
-  // A constant below zero is a way to say "nothing there".
   std::sort(negative.begin(), negative.end());
-  turned = negative.size() > 4 * positive.size() && negative.front() != negative.back();
-  if (turned) return negative;
   std::sort(positive.begin(), positive.end());
-  return positive;
+  return {std::move(positive), std::move(negative)};
+}
+
+// The value with a share `kOutliers` of all above it.
+double highestOf(const std::vector<float>& sorted) {
+  const auto last = static_cast<std::size_t>(std::ceil((1 - kOutliers) * static_cast<double>(sorted.size() - 1)));
+  return static_cast<double>(sorted[last]);
+}
+
+// Whether a share of the values is below 0. A constant below 0 is a way to say "nothing there".
+bool areOnBothSides(const Examined& values) {
+  const auto& [positive, negative] = values;
+  if (positive.empty() || negative.empty()) return false;
+  const auto lowest =
+      static_cast<std::size_t>(negative.end() - std::lower_bound(negative.begin(), negative.end(), negative.back()));
+  const std::size_t all = positive.size() + negative.size();
+  return kConstant * lowest < negative.size() &&
+         static_cast<double>(negative.size()) >= kLeastBelow * static_cast<double>(all);
 }
 
 }  // namespace
 
 std::optional<FloatCodes> FloatCodes::chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count) {
-  bool turned = false;
-  std::vector<float> values = examined(sample, count, turned);
+  const Examined all = examined(sample, count);
+  const bool turned = all.negative.size() > 4 * all.positive.size() && all.negative.front() != all.negative.back();
+  if (!turned && areOnBothSides(all)) {
+    const double lowest = -highestOf(all.negative), highest = highestOf(all.positive);
+    const double step = roundUp((highest - lowest) / (kCodesInUse - kFirstOfLifted));
+    return FloatCodes(step, kNothingThere, lowest - kFirstOfLifted * step);
+  }
+  std::vector<float> values = turned ? all.negative : all.positive;
   float nothing_from = kNothingThere;
   if (!values.empty()) {
     const auto top = std::lower_bound(values.begin(), values.end(), values.back());
@@ -54,21 +80,25 @@ std::optional<FloatCodes> FloatCodes::chosenFor(const std::function<float(std::s
     }
   }
   if (values.empty()) return std::nullopt;
-  const auto last = static_cast<std::size_t>(std::ceil((1 - kOutliers) * static_cast<double>(values.size() - 1)));
-  const double largest = std::max(static_cast<double>(values[last]), 1e-30);
+  const double largest = std::max(highestOf(values), 1e-30);
   return FloatCodes((turned ? -1 : 1) * roundUp(largest / kCodesInUse), nothing_from);
 }
 
+std::optional<double> FloatCodes::placeOf(float value) const noexcept {
+  const bool lifted = value_at_zero_ != 0;
+  const float positive = value_per_code_ < 0 ? -value : value;
+  if (!(positive > (lifted ? -kNothingThere : 0) && positive < nothing_from_)) return std::nullopt;
+  return (static_cast<double>(positive) - value_at_zero_) / std::abs(value_per_code_);
+}
+
 std::uint16_t FloatCodes::codeOf(float value) const noexcept {
-  const float v = positive(value);
-  if (isHole(v)) return kHole;
-  const double code = std::round(static_cast<double>(v) / std::abs(value_per_code_));
-  return static_cast<std::uint16_t>(std::clamp(code, 1.0, static_cast<double>(kHighest)));
+  const auto place = placeOf(value);
+  if (!place) return kHole;
+  return static_cast<std::uint16_t>(std::clamp(std::round(*place), 1.0, static_cast<double>(kHighest)));
 }
 
 bool FloatCodes::isBeyond(float value) const noexcept {
-  const float v = positive(value);
-  return !isHole(v) && static_cast<double>(v) > (kHighest + 0.5) * std::abs(value_per_code_);
+  return placeOf(value).value_or(0) > kHighest + 0.5;
 }
 
 }  // namespace relievo

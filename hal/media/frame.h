@@ -76,6 +76,7 @@ struct Frame {
   ViewLayout views;
   double value_per_code =
       0;  // floating-point value of one code (hal/media/float_codes.h); 0: the samples were whole numbers
+  double value_at_zero = 0;  // of code 0, if the numbers lie on both sides of 0
   std::uint8_t chroma_shift_x = 0;
   std::uint8_t chroma_shift_y = 0;
   std::uint8_t plane_count = 0;

@@ -56,20 +56,20 @@ double distanceOf(const DepthCalibration& c, double code) {
 }
 
 // The option to type so that the codes of `beyond` are included. `value`: of a code, 1 unless codes stand for floats,
-// whose own numbers the option takes.
+// whose own numbers the option takes; it takes none below 0.
 std::string widerOption(const DepthCalibration& c, const Beyond& beyond, double value) {
   constexpr double kNearer = 0.9, kFarther = 1.1;
   const double low = std::min(beyond.low, c.lowCode()), high = std::max(beyond.high, c.highCode());
   if (c.unit_mm) {
     const double near = beyond.low < c.lowCode() ? kNearer * *c.unit_mm * low : c.near_mm;
     const double far = beyond.high > c.highCode() ? kFarther * *c.unit_mm * high : c.far_mm;
-    return print("near=%.0f,far=%.0f", std::max(1.0, std::floor(near)), std::ceil(far));
+    return print("--calibration near=%.0f,far=%.0f", std::max(1.0, std::floor(near)), std::ceil(far));
   }
   const char* const law = c.law == DepthLaw::Inverse ? "inverse" : "linear";
   const char* const polarity = c.polarity == DepthPolarity::NearIsHigh ? "near-high" : "near-low";
   const double one = distanceOf(c, low), other = distanceOf(c, high);
-  std::string option =
-      print("law=%s,polarity=%s,codes=%.0f-%.0f", law, polarity, std::floor(value * low), std::ceil(value * high));
+  std::string option = print("--calibration law=%s,polarity=%s,codes=%.0f-%.0f", law, polarity, std::floor(value * low),
+                             std::ceil(value * high));
   if (!c.invalid.empty()) option += ",invalid=" + c.invalid.text();
   if (std::min(one, other) > 0) option += print(",near=%.6g,far=%.6g", std::min(one, other), std::max(one, other));
   return option;
@@ -83,7 +83,8 @@ std::optional<BeyondReach> beyondReach(const Frame& picture, const DepthCalibrat
   const Beyond beyond = beyondIn(picture, calibration);
   if (beyond.outside <= kTold * beyond.samples) return std::nullopt;
   const double value = picture.value_per_code != 0 ? std::abs(picture.value_per_code) : 1;
-  return BeyondReach{100.0 * beyond.outside / beyond.samples, widerOption(calibration, beyond, value)};
+  const bool lifted = picture.value_at_zero != 0;
+  return BeyondReach{100.0 * beyond.outside / beyond.samples, lifted ? "" : widerOption(calibration, beyond, value)};
 }
 
 }  // namespace relievo

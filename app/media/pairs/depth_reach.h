@@ -13,7 +13,7 @@ namespace relievo {
 // Nullopt if hardly any of the depth lies beyond them.
 struct BeyondReach {
   double percent = 0;  // of the picture
-  std::string option;  // the value of --calibration that includes it
+  std::string option;  // what includes it, such as "--calibration near=MM,far=MM"; empty if no option does
 };
 [[nodiscard]] std::optional<BeyondReach> beyondReach(const Frame& picture, const DepthCalibration& calibration);
 

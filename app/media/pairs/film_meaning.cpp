@@ -211,9 +211,9 @@ void FilmMeaning::checkReach(const Frame& depth) {
   if (!beyond) return;
   reach_open_ = false;
   log(LogLevel::Warning, "media",
-      "%s: at %.1f s %.0f %% of the depth is outside the range of the first pictures, and is flat: "
-      "--calibration %s",
-      film_.depthUrl().c_str(), toSeconds(depth.pts.time_since_epoch()), beyond->percent, beyond->option.c_str());
+      "%s: at %.1f s %.0f %% of the depth is outside the range of the first pictures, and is flat%s%s",
+      film_.depthUrl().c_str(), toSeconds(depth.pts.time_since_epoch()), beyond->percent,
+      beyond->option.empty() ? "" : ": ", beyond->option.c_str());
 }
 
 void FilmMeaning::close() noexcept {

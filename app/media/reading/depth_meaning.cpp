@@ -175,7 +175,7 @@ DepthReading readSamples(const DepthClues& clues, const KnownKind* kind, const F
     return readFloats(look, count, true, layers);
   }
   if (look.value_per_code != 0 && !isHeights(kind)) {
-    scaleToCodes(layers, look.value_per_code);
+    scaleToCodes(layers, look);
     return readNumbers(clues, look, count, layers);
   }
   if (kind == nullptr && isNamedDisparity(clues, look)) return readNamedDisparity(look, count, layers);

@@ -43,12 +43,15 @@ std::optional<double> unitIn(const CalibrationLayers& said) {
 struct Reach {
   double low = 0, median = 0, high = 0, holes = 0;
   bool relative = false;
+  double value = 1, zero = 0;  // number = zero + value * code
 };
-Reach reachOf(const CodeCount& count) {
+Reach reachOf(const Frame& depth, const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   const std::uint32_t median = count.quantile(0.5, 1, kTop);
-  return {static_cast<double>(low), static_cast<double>(median), static_cast<double>(high), count.share(0, 0),
-          areRelative(count)};
+  return {static_cast<double>(low),  static_cast<double>(median),
+          static_cast<double>(high), count.share(0, 0),
+          areRelative(count),        depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1,
+          depth.value_at_zero};
 }
 
 std::string codeRange(double low, double high) {
@@ -57,11 +60,25 @@ std::string codeRange(double low, double high) {
   return std::to_string(first) + "-" + std::to_string(last);
 }
 
-std::string described(const Reach& reach, double value) {
-  return print("numbers of %.4g to %.4g with %.1f %% holes", value * reach.low, value * reach.high, 100 * reach.holes);
+std::string described(const Reach& reach) {
+  return print("numbers of %.4g to %.4g with %.1f %% holes", reach.zero + reach.value * reach.low,
+               reach.zero + reach.value * reach.high, 100 * reach.holes);
 }
 
-DepthReading distances(const Reach& reach, double value, std::optional<double> stated_unit_mm) {
+// On both sides of 0, where no distance lies: larger is nearer in disparities and in heights.
+DepthReading lifted(const Reach& reach) {
+  DepthReading reading;
+  reading.settings = {{"law", "linear"},
+                      {"polarity", "near-high"},
+                      {"codes", codeRange(kNearer * reach.low, reach.high + (1 - kNearer) * reach.low)},
+                      {"invalid", "0"}};
+  reading.why = described(reach) + ", on both sides of 0: relative disparities or heights";
+  reading.offer = "if large numbers are far: --calibration polarity=near-low";
+  return reading;
+}
+
+DepthReading distances(const Reach& reach, std::optional<double> stated_unit_mm) {
+  const double value = reach.value;
   const bool metres = value * reach.median < kFarthestMetres;
   const double unit_mm = stated_unit_mm.value_or(value * (metres ? kMmPerMetre : 1));
   const double near = kNearer * unit_mm * reach.low, far = kFarther * unit_mm * std::max(reach.high, reach.low + 1);
@@ -69,14 +86,14 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
   if (std::min(unit_mm, near) < kLeastMm || far > kMostMm) {
     reading.settings = {
         {"polarity", "near-low"}, {"codes", codeRange(kNearer * reach.low, kFarther * reach.high)}, {"invalid", "0"}};
-    reading.why = described(reach, value) + ": distances without a known unit";
+    reading.why = described(reach) + ": distances without a known unit";
     reading.offer = "if large numbers are near: --calibration polarity=near-high";
     return reading;
   }
   reading.settings = {
       {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
   const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
-  reading.why = described(reach, value) + ": distances" + unit;
+  reading.why = described(reach) + ": distances" + unit;
   if (stated_unit_mm) return reading;
   reading.offer = "if the numbers are disparities: --calibration law=inverse; if heights: --as heights";
   if (value * reach.median > kLeastCentimetres) reading.offer += "; if cm: --as unreal";
@@ -89,23 +106,24 @@ DepthReading distances(const Reach& reach, double value, std::optional<double> s
   return reading;
 }
 
-DepthReading disparities(const Reach& reach, double value, double top, const CalibrationLayers& said) {
+DepthReading disparities(const Reach& reach, double top, const CalibrationLayers& said) {
   const double low = kNearer * reach.low, high = std::min(top, kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"polarity", "near-high"}, {"codes", codeRange(low, high)}, {"invalid", "0"}};
-  reading.settings["law"] = reach.relative ? "linear" : "inverse";
-  if (!reach.relative && !has(said, "near") && !has(said, "far")) {
+  const bool linear = reach.relative || reach.zero != 0;
+  reading.settings["law"] = linear ? "linear" : "inverse";
+  if (!linear && !has(said, "near") && !has(said, "far")) {
     reading.settings["near"] = print("%.6g", kNearMm);
     reading.settings["far"] = print("%.6g", kNearMm * high / low);
   }
-  reading.why = described(reach, value) + (reach.relative ? ": relative disparities" : ": disparities");
+  reading.why = described(reach) + (reach.relative ? ": relative disparities" : ": disparities");
   if (!has(said, "law") && !has(said, "polarity")) {
     reading.offer = "if the numbers are distances: --calibration unit=1000 (metres) or unit=1 (millimetres)";
   }
   return reading;
 }
 
-void scale(CalibrationSettings& settings, double value) {
+void scale(CalibrationSettings& settings, double value, double zero) {
   const auto unit = settings.find("unit");
   double mm = 0;
   if (unit != settings.end()) {
@@ -117,7 +135,7 @@ void scale(CalibrationSettings& settings, double value) {
   const auto codes = settings.find("codes");
   if (codes == settings.end()) return;
   if (const auto range = CodeSet::parseRange(codes->second)) {
-    codes->second = codeRange(range->low / value, range->high / value);
+    codes->second = codeRange((range->low - zero) / value, (range->high - zero) / value);
   }
 }
 
@@ -191,30 +209,29 @@ bool saysDisparity(std::string_view path) {
 // A network's numbers begin at 0.
 bool areFromAfar(const Frame& depth, const CodeCount& count) {
   constexpr double kLeast = 0.1;
-  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
-  return count.share(1, kTop) > 0 && value * reachOf(count).low >= kLeast;
+  const Reach reach = reachOf(depth, count);
+  return count.share(1, kTop) > 0 && reach.zero + reach.value * reach.low >= kLeast;
 }
 
 bool mayBeMetres(const Frame& depth, const CodeCount& count) {
   constexpr double kMost = 16;  // a stereo camera's disparities reach more pixels
-  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
-  return areFromAfar(depth, count) && value * reachOf(count).high <= kMost;
+  const Reach reach = reachOf(depth, count);
+  return areFromAfar(depth, count) && reach.value * reach.high <= kMost;
 }
 
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
-  const Reach reach = reachOf(count);
-  const double value = depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1;
+  const Reach reach = reachOf(depth, count);
   const auto unit = unitIn(said);
   const bool told = !unit && (has(said, "law") || has(said, "polarity"));
-  return told || (disparity && !unit) ? disparities(reach, value, (1u << count.bits()) - 1, said)
-                                      : distances(reach, value, unit);
+  if (reach.zero != 0 && !told && !unit) return lifted(reach);
+  return told || (disparity && !unit) ? disparities(reach, (1u << count.bits()) - 1, said) : distances(reach, unit);
 }
 
-void scaleToCodes(CalibrationLayers& said, double value_per_code) {
-  const double value = std::abs(value_per_code);
+void scaleToCodes(CalibrationLayers& said, const Frame& depth) {
+  const double value = std::abs(depth.value_per_code);
   for (CalibrationSettings* layer : {&said.command_line, &said.side_file, &said.stated_kind, &said.tags, &said.names}) {
-    scale(*layer, value);
+    scale(*layer, value, depth.value_at_zero);
   }
 }
 

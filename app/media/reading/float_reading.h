@@ -35,11 +35,12 @@ namespace relievo {
 
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
 // millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows an arbitrary
-// zero. What `said` states overrides the guess: unit= makes them distances, law= or polarity= disparities.
+// zero. Numbers on both sides of 0 are relative disparities or heights. What `said` states overrides the guess: unit=
+// makes them distances, law= or polarity= disparities.
 [[nodiscard]] DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity,
                                       const CalibrationLayers& said);
 
-// Divides `unit` and `codes`, which users state in the file's numbers, by the scale.
-void scaleToCodes(CalibrationLayers& said, double value_per_code);
+// Converts `unit` and `codes`, which users state in the file's numbers, to the picture's codes.
+void scaleToCodes(CalibrationLayers& said, const Frame& depth);
 
 }  // namespace relievo

@@ -165,6 +165,7 @@ Result<Frame> Registrar::registered(const Frame& depth) {
   Frame frame =
       grayFrame(std::make_shared<const std::vector<std::uint16_t>>(std::move(target.codes)), target.cols, target.rows);
   frame.value_per_code = depth.value_per_code;
+  frame.value_at_zero = depth.value_at_zero;
   frame.pts = depth.pts;
   frame.duration = depth.duration;
   return frame;

@@ -278,7 +278,7 @@ Result<FramePtr> Converter::convert(const AVFrame& picture) {
   }
   if (floats) {
     if (!codes_) codes_ = scaleFor(picture);
-    toCodes(picture, codes_.value_or(FloatCodes::identity()), *converted);
+    toCodes(picture, scale(), *converted);
     return converted;
   }
   if (sws_scale(scaler_, picture.data, picture.linesize, 0, picture.height, converted->data, converted->linesize) < 0) {

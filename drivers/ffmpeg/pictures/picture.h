@@ -41,8 +41,8 @@ class Converter {
   // Gray in floating point becomes codes on the scale of the first such picture with a number
   // (hal/media/float_codes.h). Unsupported if FFmpeg cannot read the format, Exhausted if out of memory.
   [[nodiscard]] Result<FramePtr> convert(const AVFrame& picture);
-  // Frame::value_per_code of the last converted picture, a floating-point one.
-  [[nodiscard]] double valuePerCode() const noexcept { return codes_ ? codes_->valuePerCode() : 1; }
+  // The scale of the last converted picture, a floating-point one.
+  [[nodiscard]] FloatCodes scale() const noexcept { return codes_.value_or(FloatCodes::identity()); }
   // Call for another film: its first floating-point picture sets a new scale.
   void forgetScale() noexcept { codes_.reset(); }
 

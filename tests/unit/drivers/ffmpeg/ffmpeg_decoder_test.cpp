@@ -219,7 +219,7 @@ TEST(FfmpegDecoder, FloatingPointBecomesCodesWithTheirScale) {
   ffmpeg::Converter converter;
   const auto converted = converter.convert(*picture);
   ASSERT_TRUE(converted.has_value());
-  EXPECT_DOUBLE_EQ(converter.valuePerCode(), per_code);
+  EXPECT_DOUBLE_EQ(converter.scale().valuePerCode(), per_code);
   EXPECT_EQ((*converted)->format, AV_PIX_FMT_GRAY16LE);
   const auto* const row = reinterpret_cast<const std::uint16_t*>((*converted)->data[0] + (*converted)->linesize[0]);
   EXPECT_EQ(std::vector<std::uint16_t>(row, row + mm.size()), mm);
