@@ -11,10 +11,10 @@
 namespace relievo {
 namespace {
 
-// Calls `compare` for each sample and the direction, left or up, in which there are `reach` others.
+// Calls `compare` for each sample examined and the direction, left or up, in which there are `reach` others.
 template <class Compare>
 void compareBack(const Frame& frame, int reach, Compare compare) {
-  for (int r = 0; r < frame.height; ++r) {
+  for (int r = 0; r < frame.height; r += rowStep(frame)) {
     for (int c = 0; c < frame.width; ++c) {
       if (c >= reach) compare(c, r, 1, 0);
       if (r >= reach) compare(c, r, 0, 1);
@@ -60,7 +60,7 @@ bool isNumber(const Frame& frame) noexcept {
 // True if all numbers but white, the sky, have 20 bits.
 bool areBelow20Bits(const Frame& frame) noexcept {
   constexpr std::uint32_t kWhite = 0xffffff, kBits = 20;
-  for (int r = 0; r < frame.height; ++r) {
+  for (int r = 0; r < frame.height; r += rowStep(frame)) {
     for (int c = 0; c < frame.width; ++c) {
       if (const std::uint32_t number = numberAt(frame, c, r); number != kWhite && number >> kBits != 0) return false;
     }
@@ -74,7 +74,7 @@ bool holdsFloats(const Frame& frame) noexcept {
   constexpr float kLeast = 0.01F, kMost = 1e5F, kAlike = 0.1F;
   if (!frame.alpha || frame.alpha->bits != 8) return false;
   std::uint64_t sound = 0, alike = 0, samples = 0;
-  for (int r = 0; r < frame.height; ++r) {
+  for (int r = 0; r < frame.height; r += rowStep(frame)) {
     float left = 0;
     for (int c = 0; c < frame.width; ++c, ++samples) {
       const float here = floatAt(frame, c, r);
@@ -94,7 +94,7 @@ SampleOrder terrainOrder(const Frame& frame) noexcept {
   constexpr int kMostRed = 24, kLeastGreen = 4;
   std::array<bool, 256> red{}, green{};
   std::uint64_t samples = 0, low = 0, terrarium = 0, mapbox = 0;
-  for (int r = 0; r < frame.height; ++r) {
+  for (int r = 0; r < frame.height; r += rowStep(frame)) {
     for (int c = 0; c < frame.width; ++c) {
       const std::uint32_t top = partAt(frame, 0, c, r) & 0xff, next = partAt(frame, 1, c, r) & 0xff;
       if (top == 0 && next == 0 && partAt(frame, 2, c, r) == 0) continue;  // no data
@@ -114,12 +114,11 @@ SampleOrder terrainOrder(const Frame& frame) noexcept {
 }  // namespace
 
 bool isConstant(const Frame& frame, std::size_t part) {
-  std::uint64_t others = 0;
+  std::uint64_t others = 0, samples = 0;
   const std::uint32_t usual = partAt(frame, part, frame.width / 2, frame.height / 2);
-  for (int r = 0; r < frame.height; ++r) {
-    for (int c = 0; c < frame.width; ++c) others += partAt(frame, part, c, r) != usual ? 1 : 0;
+  for (int r = 0; r < frame.height; r += rowStep(frame)) {
+    for (int c = 0; c < frame.width; ++c, ++samples) others += partAt(frame, part, c, r) != usual ? 1 : 0;
   }
-  const std::uint64_t samples = static_cast<std::uint64_t>(frame.width) * static_cast<std::uint64_t>(frame.height);
   return 100 * others <= samples;
 }
 

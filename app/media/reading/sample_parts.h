@@ -2,6 +2,7 @@
 // The parts of a sample, and the numbers whose bytes they are.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,12 @@
 #include "hal/media/samples.h"
 
 namespace relievo {
+
+// How many rows to go on by, so that a photo is examined no longer than a VGA picture, of which each row is.
+inline int rowStep(const Frame& frame) noexcept {
+  constexpr std::int64_t kMostExamined = 1 << 19;  // samples
+  return static_cast<int>(std::max<std::int64_t>(1, std::int64_t{frame.width} * frame.height / kMostExamined));
+}
 
 inline bool isPackable(const Frame& frame) noexcept {
   return frame.model == ColorModel::Rgb && frame.components[0].bits == 8;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "app/media/reading/code_count.h"
 #include "tests/support/film/clip_maker.h"
@@ -231,6 +232,23 @@ TEST(PackedCodes, ACaptionAboveTheHalvesIsTold) {
   const auto told = testing::Contains(testing::HasSubstr("crop=iw:ih-60:0:60 OUT.png"));
   EXPECT_THAT(openFilm({.url = folder / "a.png"}).info.notes, told);
   EXPECT_THAT(openFilm({.url = folder / "b.png"}).info.notes, testing::Not(told));
+}
+
+// In the rows between those that are examined, the upper byte changes and the lower one does not.
+TEST(PackedCodes, OfAPhotosSizeAreFoundInSomeOfItsRows) {
+  constexpr int kCols = 2048, kRows = 1024, kStep = 4;
+  std::vector<std::uint8_t> samples;
+  for (int r = 0; r < kRows; ++r) {
+    for (int c = 0; c < kCols; ++c) {
+      const bool examined = r % kStep == 0 || r % kStep == kStep - 1;  // each is compared with the row above, too
+      const auto code = static_cast<unsigned>(examined ? 1000 + 2 * c + 3 * r : 256 * (c % 2));
+      samples.insert(samples.end(), {static_cast<std::uint8_t>(code >> 8), static_cast<std::uint8_t>(code), 0});
+    }
+  }
+  Frame frame{.width = kCols, .height = kRows, .model = ColorModel::Rgb};
+  for (std::uint8_t k = 0; k < 3; ++k) frame.components[k] = {.offset_bytes = k, .step_bytes = 3};
+  frame.planes[0] = {samples.data(), 3 * kCols};
+  EXPECT_EQ(packedOrder(frame), SampleOrder::RedGreen);
 }
 
 // From red over yellow to green, one byte has its highest value while another one changes; blue is 0 throughout.
