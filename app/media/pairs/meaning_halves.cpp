@@ -87,9 +87,9 @@ std::optional<Packing> smoothHalf(const Frame& look) {
 std::string namedLine(const Frame& look) {
   const auto map = bestColorMap(look);
   return print(
-      "its name says depth, but its colours are of no known map, and it plays flat; if it is depth: --packing "
-      "depth-alone --depth-code %s",
-      map ? name(map->code) : "turbo, jet, ..");
+      "its name says depth, but its colours are of %s, and it plays flat; if it is depth: --packing depth-alone "
+      "--depth-code %s",
+      map ? "a small palette" : "no known map", map ? name(map->code) : "turbo, jet, ..");
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
