@@ -95,6 +95,14 @@ std::ptrdiff_t depthRankOf(const std::string& name) {
   return std::ranges::find(kEndings, endingOf(name)) - kEndings.begin();
 }
 
+bool holdsNumbers(const std::string& path) {
+  const std::string ending = endingOf(path);
+  if (ending == "png") return isGray16Png(path);
+  if (ending == "npy") return isPlane(path);
+  if (ending == "tif" || ending == "tiff") return isGrayTiff(path);
+  return ending == "pfm" || ending == "dpt";
+}
+
 bool holdsPhotograph(const std::vector<std::string>& names) {
   return std::ranges::any_of(names, isPhoto);
 }

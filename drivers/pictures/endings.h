@@ -13,6 +13,9 @@ namespace relievo::pictures {
 // The place of a picture's ending in the order of preference for depth: formats of floating-point numbers first.
 [[nodiscard]] std::ptrdiff_t depthRankOf(const std::string& name);
 
+// Whether a picture is of numbers, or of gray of 16 bits and more in PNG or TIFF. Reads its head.
+[[nodiscard]] bool holdsNumbers(const std::string& path);
+
 // Whether a name ends as a camera's photographs do, and masks do not.
 [[nodiscard]] bool holdsPhotograph(const std::vector<std::string>& names);
 

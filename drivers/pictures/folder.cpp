@@ -22,11 +22,13 @@
 namespace relievo::pictures {
 namespace {
 
-constexpr const char* kNoPictures = "there is no picture in this folder; name a folder of pictures or a film";
+constexpr const char* kUnsaid =
+    "its pictures are in folders whose names do not say which are colour and which depth; give the folder of colour, "
+    "and "
+    "--depth with that of depth";
 constexpr const char* kSeveral = "this folder holds several recordings; name one of the folders in it";
 constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
-constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
 constexpr const char* kNoList = "cannot be read; name a list of pictures such as associations.txt";
 
 constexpr std::size_t kMostListed = 2000;  // folders
@@ -43,31 +45,6 @@ struct Path {
 // "c" of "a/b/c/".
 std::string folderOf(const std::string& path) {
   return Path(path.substr(0, path.rfind('/'))).name;
-}
-
-// What is in a folder: pictures, sub-folders and the rest.
-struct Listing {
-  std::vector<std::string> pictures, folders;
-  std::size_t films = 0;
-  const char* way = nullptr;  // to convert the first of the rest that can be, or the last that says depth
-};
-// Lists a folder, if this opening may list one more.
-Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
-  if (may_list == 0) return fail(ErrorCode::NotFound, kNoPictures);
-  --may_list;
-  const auto entries = listFolder(folder.empty() ? "." : folder);
-  if (!entries) return std::unexpected(entries.error());
-  Listing listing;
-  for (const auto& [name, is] : *entries) {
-    if (name.starts_with('.')) continue;
-    const char* const way = wayToConvert(folder, name);
-    if (way != nullptr && (listing.way == nullptr || roleOf(name) == Role::Depth)) listing.way = way;
-    const MediaKind kind = mediaKindOf(name);
-    if (kind == MediaKind::Picture) listing.pictures.push_back(name);
-    else if (kind == MediaKind::Film) ++listing.films;
-    else if (is == FolderEntry::Kind::Folder) listing.folders.push_back(name);
-  }
-  return listing;
 }
 
 // Sorts pictures of one folder by the words in their names. Beside names that say depth, all others are colour.
@@ -125,6 +102,29 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
   return taken.empty() ? PictureFiles{} : picturesIn(folder + taken + "/", Role::Color, found, may_list);
 }
 
+// Where no name says depth: the only folder whose pictures are numbers, beside another one with their names; it is
+// told.
+PictureFiles depthByForm(const std::string& folder, const Listing& listing, FoundPictures& found,
+                         std::size_t& may_list) {
+  constexpr std::size_t kMostFolders = 16;
+  std::map<std::string, std::vector<std::string>> pictures;
+  std::vector<std::string> numbers;  // folders
+  if (listing.folders.size() > kMostFolders) return {};
+  for (const std::string& name : listing.folders) {
+    auto names = listingOf(folder + name, may_list).value_or(Listing{}).pictures;
+    if (names.empty() || roleOf(name) == Role::Other) continue;
+    const std::string first = folder + name + "/" + *std::ranges::min_element(names, naturalLess);
+    if (holdsNumbers(first)) numbers.push_back(name);
+    pictures[name] = std::move(names);
+  }
+  const auto isLike = [&](const auto& entry) {
+    return entry.first != numbers.front() && likeness(entry.second, pictures[numbers.front()]) > 0;
+  };
+  if (numbers.size() != 1 || std::ranges::none_of(pictures, isLike)) return {};
+  found.notes.push_back(numbers.front() + " is taken for depth: its pictures are numbers, or gray of 16 bits");
+  return picturesIn(folder + numbers.front() + "/", Role::Depth, found, may_list);
+}
+
 // The colour of depth in a deeper folder, in folders of this role: the first one with the same folders in it
 // ("frames/a/left" for "disparity/a/left"), or that of the depth's name (KITTI's "image_02"). Empty if there is none.
 PictureFiles colorInside(const std::string& folder, const Listing& listing, Role role, FoundPictures& found,
@@ -150,6 +150,7 @@ bool sortByFolder(const std::string& folder, const Listing& listing, FoundPictur
     return name.empty() ? PictureFiles{} : picturesIn(folder + name + "/", role, found, may_list);
   };
   found.depth = open(Role::Depth);
+  if (found.depth.names.empty()) found.depth = depthByForm(folder, listing, found, may_list);
   found.color = colorInside(folder, listing, Role::Color, found, may_list);
   if (found.color.names.empty()) found.color = open(Role::Color);
   if (found.color.names.empty()) found.color = colorInside(folder, listing, Role::Unsaid, found, may_list);
@@ -250,22 +251,16 @@ Result<FoundPictures> findInFolder(const std::string& folder, std::size_t& may_l
   found = {};
   if (isListOfFilms(listing->films, listing->pictures.size())) return fail(ErrorCode::NotFound, kHasFilms);
   if (listing->pictures.empty() && listing->way != nullptr) return fail(ErrorCode::Unsupported, listing->way);
+  const auto hasPictures = [&](const std::string& name) {
+    return !listingOf(folder + name, may_list).value_or(Listing{}).pictures.empty();
+  };
+  if (listing->pictures.empty() && below.error().code == ErrorCode::NotFound &&
+      std::ranges::any_of(listing->folders, hasPictures))
+    return fail(ErrorCode::NotFound, kUnsaid);
   if (listing->pictures.empty()) return below;
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);
   if (found.depth.names.empty()) takeOdometryTimes(found);
   if (found.depth.names.empty() && listing->way != nullptr) found.notes.emplace_back(listing->way);
-  return found;
-}
-
-Result<FoundPictures> findByPattern(const Path& path) {
-  FoundPictures found{.color = {path.folder, {}}};
-  std::size_t may_list = 1;
-  auto listing = listingOf(path.folder, may_list);
-  if (!listing) return std::unexpected(listing.error());
-  for (std::string& name : listing->pictures) {
-    if (matches(path.name, name)) found.color.names.push_back(std::move(name));
-  }
-  if (found.color.names.empty()) return fail(ErrorCode::NotFound, kNoMatch);
   return found;
 }
 
@@ -288,7 +283,7 @@ Result<FoundPictures> findPictures(const std::string& url) {
   std::size_t may_list = kMostListed;
   if (isFolder(path)) return findInFolder(path.ends_with('/') ? path : path + "/", may_list);
   const Path parts(path);
-  if (!isRegularFile(path)) return findByPattern(parts);
+  if (!isRegularFile(path)) return findByPattern(parts.folder, parts.name);
   if (endingOf(path) != "txt") return FoundPictures{.color = {parts.folder, {parts.name}}};
   const auto text = readWholeFile(path, FileSize::Recording, kNoList);
   if (!text) return std::unexpected(text.error());

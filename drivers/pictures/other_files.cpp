@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/pictures/roles.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_file.h"
+#include "platform/files/answered_place.h"
 
 namespace relievo::pictures {
 namespace {
@@ -56,6 +58,25 @@ constexpr Way kWays[] = {{"raw", kRaw}, {"bin", kRaw},    {"yuv", kRawFilms},  {
                          {"h5", kHdf5}, {"mat", kMatlab}, {"depth", kRecord3d}};
 
 }  // namespace
+
+Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
+  if (may_list == 0) return fail(ErrorCode::NotFound, kNoPictures);
+  --may_list;
+  const auto entries = listFolder(folder.empty() ? "." : folder);
+  if (!entries) return std::unexpected(entries.error());
+  const std::string place = folder.empty() || folder.ends_with('/') ? folder : folder + "/";
+  Listing listing;
+  for (const auto& [name, is] : *entries) {
+    if (name.starts_with('.')) continue;
+    const char* const way = wayToConvert(place, name);
+    if (way != nullptr && (listing.way == nullptr || roleOf(name) == Role::Depth)) listing.way = way;
+    const MediaKind kind = mediaKindOf(name);
+    if (kind == MediaKind::Picture) listing.pictures.push_back(name);
+    else if (kind == MediaKind::Film) ++listing.films;
+    else if (is == FolderEntry::Kind::Folder) listing.folders.push_back(name);
+  }
+  return listing;
+}
 
 const char* wayToConvert(const std::string& folder, std::string_view name) {
   if (name.ends_with(".depth_meters.hdf5")) return kHypersim;

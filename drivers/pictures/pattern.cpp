@@ -7,11 +7,15 @@
 #include <cctype>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "drivers/pictures/other_files.h"
 #include "hal/media/media_names.h"
 
 namespace relievo::pictures {
 namespace {
+
+constexpr const char* kNoMatch = "no picture has a name of this pattern; check the folder and the pattern";
 
 // "b%06d.png": the text around the number and the least number of its digits.
 struct Numbered {
@@ -43,6 +47,18 @@ bool matches(const std::string& pattern, const std::string& name) {
   if (!name.starts_with(numbered->before) || !name.ends_with(numbered->behind)) return false;
   const auto digits = std::string_view(name).substr(numbered->before.size(), name.size() - around);
   return std::ranges::all_of(digits, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+Result<FoundPictures> findByPattern(const std::string& folder, const std::string& pattern) {
+  FoundPictures found{.color = {folder, {}}};
+  std::size_t may_list = 1;
+  auto listing = listingOf(folder, may_list);
+  if (!listing) return std::unexpected(listing.error());
+  for (std::string& name : listing->pictures) {
+    if (matches(pattern, name)) found.color.names.push_back(std::move(name));
+  }
+  if (found.color.names.empty()) return fail(ErrorCode::NotFound, kNoMatch);
+  return found;
 }
 
 }  // namespace relievo::pictures

@@ -22,11 +22,16 @@ std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo&
 }
 
 // Photos share their names with masks and with pictures in other forms, too: depth is gray of more than 8 bits there.
-bool mayBeDepthOf(const std::string& photo, const std::string& file, const StreamInfo& stream) {
+bool mayBeDepthOf(const std::string& photo, const StreamInfo& color, const std::string& file,
+                  const StreamInfo& stream) {
+  const auto isFineGray = [](const StreamInfo& picture) {
+    return picture.pixel_format.starts_with("gray") && picture.pixel_format != "gray";
+  };
+  if (fs::path(photo).stem() != fs::path(file).stem()) return true;
+  if (isFineGray(color)) return false;  // the depth itself: MiDaS writes both
   const std::string ending = endingOf(file);
   const bool picture = ending == "png" || ending == "tif" || ending == "tiff";
-  if (!picture || fs::path(photo).stem() != fs::path(file).stem() || stream.pixel_format.empty()) return true;
-  return stream.pixel_format.starts_with("gray") && stream.pixel_format != "gray";
+  return !picture || stream.pixel_format.empty() || isFineGray(stream);
 }
 
 }  // namespace
@@ -103,7 +108,7 @@ void FilmInputs::takeDepthBeside(const StreamInfo& color) {
   if (file.empty()) return;
   film_.options.depth_url = file;
   const auto opened = openDepth(color);
-  const bool is_depth = opened && mayBeDepthOf(film_.options.url, file, film_.sources.depth()->stream());
+  const bool is_depth = opened && mayBeDepthOf(film_.options.url, color, file, film_.sources.depth()->stream());
   if (is_depth) {
     notes.push_back(print("depth is read from %s beside the film; --depth FILE chooses another", file.c_str()));
     return;

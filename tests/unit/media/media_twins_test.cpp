@@ -90,6 +90,8 @@ TEST_F(Twins, APhotoGivenAloneTakesTheNumbersOfItsName) {
 }
 
 TEST_F(Twins, APhotoInAnotherFormIsNoDepth) {
+  picture("m/1.png", "png", "gray16be", true), write("m/1.npy", array());  // MiDaS writes the depth twice
+  EXPECT_EQ(openFilm({.url = folder_ / "m/1.png"}).info.packing, Packing::DepthAlone);
   for (const auto& [name, codec, format] :
        {std::array{"a/1.png", "png", "rgb24"}, std::array{"b/1.tif", "tiff", "rgb24"},
         std::array{"c/1.png", "png", "gray"}, std::array{"d/1.tif", "tiff", "rgb48le"}}) {
