@@ -89,7 +89,8 @@ PictureFiles colorBeside(const std::string& folder, const Listing& listing, Foun
                          std::size_t& may_list) {
   std::map<std::string, std::pair<std::size_t, bool>> worth;
   for (const std::string& name : listing.folders) {
-    if (roleOf(name) != Role::Unsaid || isPainted(name) || lowerCase(name) == "alpha") continue;
+    const bool depth = found.depth.folder.starts_with(folder + name + "/");
+    if (depth || roleOf(name) != Role::Unsaid || isPainted(name) || lowerCase(name) == "alpha") continue;
     const auto pictures = listingOf(folder + name, may_list).value_or(Listing{}).pictures;
     if (!pictures.empty()) worth[name] = {likeness(pictures, found.depth.names), holdsPhotograph(pictures)};
   }

@@ -15,6 +15,7 @@ constexpr double kLeastBelow = 0.02;     // of the values of a film that has som
 constexpr std::size_t kConstant = 4;     // the lowest value stands for "nothing there" if one in so many below 0 has it
 constexpr double kFirstOfLifted = 1024;  // the code of its lowest value: later pictures may reach lower
 constexpr double kAloneFactor = 10;      // the value of "nothing there" is so many times the next smaller one
+constexpr float kSame = 0.999F;          // a far plane that was computed from a depth buffer is not exact
 constexpr double kCodesInUse = 0x7fff;   // half of them: later pictures may reach farther
 
 // 1, 2 or 5 times a power of ten, at least `least`.
@@ -73,7 +74,7 @@ std::optional<FloatCodes> FloatCodes::chosenFor(const std::function<float(std::s
   std::vector<float> values = turned ? all.negative : all.positive;
   float nothing_from = kNothingThere;
   if (!values.empty()) {
-    const auto top = std::lower_bound(values.begin(), values.end(), values.back());
+    const auto top = std::lower_bound(values.begin(), values.end(), kSame * values.back());
     if (top != values.begin() && *top >= static_cast<float>(kAloneFactor) * *(top - 1)) {
       nothing_from = static_cast<float>(std::sqrt(kAloneFactor)) * *(top - 1);
       values.erase(top, values.end());

@@ -10,10 +10,10 @@ namespace relievo {
 
 // One scale for a whole film, chosen from its first picture that has a number: a code stands for 1, 2 or 5 times a
 // power of ten, and the picture's largest value uses a quarter to a half of the codes. Code 0 is a hole: what is not a
-// number, not positive, or so large that it means "nothing there" (1e9 and more, or one value that lies alone, ten
-// times beyond all others). A film whose values are mostly negative, as some disparities are, has its sign turned. One
-// whose values lie on both sides of 0, as heights and a network's relative disparities do, is lifted above 0, and its
-// codes begin below its lowest value. A later value beyond the scale gets the highest code, or code 1.
+// number, not positive, or so large that it means "nothing there" (1e9 and more, or one value, to a thousandth, that
+// lies alone, ten times beyond all others). A film whose values are mostly negative, as some disparities are, has its
+// sign turned. One whose values lie on both sides of 0, as heights and a network's relative disparities do, is lifted
+// above 0, and its codes begin below its lowest value. A later value beyond the scale gets the highest code, or code 1.
 class FloatCodes {
  public:
   static constexpr float kNothingThere = 1e9F;
