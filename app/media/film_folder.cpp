@@ -147,7 +147,9 @@ bool isOfCameras(const std::string& name) {
 // them says that it is depth and the array does not.
 std::string arrayAmong(const std::vector<std::string>& pictures, const fs::path& folder,
                        const std::vector<std::string>& beside) {
-  const auto isArray = [](const std::string& name) { return endingOf(name) == "npy" && !isOfCameras(name); };
+  const auto isArray = [](const std::string& name) {
+    return (endingOf(name) == "npy" && !isOfCameras(name)) || (endingOf(name) == "npz" && saysDepth(name));
+  };
   const auto array = std::ranges::find_if(pictures, isArray);
   if (std::ranges::count_if(pictures, isArray) != 1) return "";
   const bool of_one = std::ranges::any_of(beside, [&](const std::string& name) {
@@ -165,7 +167,7 @@ std::optional<FilmOverDepth> picturesOverArray(const fs::path& place, const std:
   const std::vector<std::string> depths = picturesOf(place / depth);
   FilmOverDepth found{.film = (place / color).string(), .depth = arrayAmong(depths, place / depth, pictures)};
   if (found.depth.empty() || (!depth.empty() && depths.size() > 1)) return std::nullopt;
-  std::erase_if(pictures, [](const std::string& name) { return endingOf(name) == "npy"; });
+  std::erase_if(pictures, [](const std::string& name) { return isOneOf(endingOf(name), {"npy", "npz"}); });
   if (pictures.size() < 2) return std::nullopt;
   if (!color.empty()) return found;
   for (std::string& name : pictures) name = place / name;

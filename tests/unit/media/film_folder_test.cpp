@@ -138,6 +138,11 @@ TEST_F(FilmFolder, AnArrayIsTheDepthOfTheFilmOrThePicturesBesideIt) {
   expect("b", "b/rgb", "b/depth.npy");
   expect("c", "c/f*.jpg", "c/depth.npy");
   expect("d", "d/film.mp4", "d/depth/all.npy");
+  std::filesystem::create_directory(folder_ / "e");
+  files({"e/f1.jpg", "e/f2.jpg", "e/features.npz"});
+  EXPECT_FALSE(filmOverDepth(folder_ / "e")) << "an archive of anything";
+  files({"e/depths.npz"});
+  expect("e", "e/f*.jpg", "e/depths.npz");
   files({"a/depth/more.npy", "c/f2_depth.npy", "d/depth/more.npy"});
   EXPECT_FALSE(filmOverDepth(folder_ / "a")) << "an array for each picture";
   EXPECT_FALSE(filmOverDepth(folder_ / "c"));
