@@ -41,8 +41,8 @@ extern const PhotoKind kDepthJpeg;
 // picture (JPS), with the tags STEREO_MODE and kSqueezedTag.
 extern const PhotoKind kStereoJpeg;
 
-// A line about depth in a photo of a kind that is not read (Samsung's, Huawei's, Leia's), with what to do; null if the file,
-// which begins like a JPEG, has none.
+// A line about depth in a photo of a kind that is not read (Samsung's, Huawei's, Leia's), with what to do; null if the
+// file, which begins like a JPEG, has none.
 [[nodiscard]] const char* unreadDepth(const std::string& path);
 
 // The pictures of a file that one of the kinds takes; none if it is another. Reads the file if it begins
