@@ -70,6 +70,13 @@ TEST_F(PlayerTurn, WorksWhileAFilmIsSought) {
   playsTurned();
 }
 
+TEST_F(PlayerTurn, ALiveFilmGoesOnTurned) {
+  bench_.sources["film"].live = true;
+  bench_.press(0.5, KEY_R);
+  playsTurned();
+  EXPECT_GT(bench_.report.media_s, 3.5);
+}
+
 TEST_F(PlayerTurn, OfTwoViewsIsRefused) {
   bench_.config.source.packing = Packing::StereoSideBySide;
   expectAfter(0, false, 160 * 24 / 32.0);
