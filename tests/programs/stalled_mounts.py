@@ -11,7 +11,6 @@ import os
 import shutil
 import signal
 import socket
-import struct
 import subprocess
 import sys
 import tempfile
@@ -19,11 +18,10 @@ import time
 
 sys.dont_write_bytecode = True  # beside the sources
 import seeds
+import stalled_player
 import stalled_writing
 import stalling_files
 
-SAID = "does not answer within 10 s; check the mount"
-MOST_READS = 100  # of a file of which nothing is wanted any more
 END_S = 120  # for an end of any kind, on a busy machine
 IN_NAMESPACE = "RELIEVO_STALLED_MOUNTS"
 H264 = ("-c:v", "libx264", "-threads", "1", "-pix_fmt", "yuv420p", "-g", "4")
@@ -51,18 +49,6 @@ GIVEN_UP = (
 )
 
 
-def pages(count):
-    """A TIFF of so many pages of 16 gray samples each."""
-    tags, pixels = (256, 257, 258, 262, 273, 277, 278, 279), 8
-    file = struct.pack("<2sHI", b"II", 42, 8 + 16) + bytes(16)
-    for number in range(count):
-        values = (4, 4, 8, 1, pixels, 1, 4, 16)
-        entries = b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in zip(tags, values))
-        file += struct.pack("<H", len(tags)) + entries
-        file += struct.pack("<I", len(file) + 4 if number + 1 < count else 0)
-    return file
-
-
 def make_files(folder, programs):
     """Films, pictures and text files of every kind that the programs read by name."""
     make = seeds.Maker(folder, programs)
@@ -72,7 +58,7 @@ def make_files(folder, programs):
     make.pictures("folder/color/%06d.png", seeds.COLOR)
     make.pictures("folder/depth/%06d.png", seeds.DISTANCE)
     make.bytes("depth.npy", seeds.npy(make.gray16()))
-    make.bytes("pages.tiff", pages(400))
+    make.bytes("pages.tiff", stalled_player.pages(400))
     make.bytes("large.jpg", b"\xff\xd8\xff\xe1" + bytes(60_000_000))
     make.text("depth.txt", "unit=1\n")
     make.text("list.m3u", "#EXTM3U\nfilm.mkv\n")
@@ -165,70 +151,10 @@ def given_up(case, line, operation, file, thing):
     case.files.stall(operation, file)
     case.start(line)
     code, words = case.code(), case.words()
-    if code != 1 or f"{thing.replace('@', case.place)}: the file system {SAID}" not in words:
+    if code != 1 or f"{thing.replace('@', case.place)}: the file system {stalled_player.SAID}" not in words:
         return f"exit code {code}: {words}"
     left = os.listdir(case.home)
     return f"left behind: {left}" if left else ""
-
-
-def at_once(case, what, passed, code=0):
-    """`what` happened before the file system was given up."""
-    words = case.words()
-    if not passed or SAID in words or code != 0:
-        return f"{what}: exit code {code}: {words}"
-    return ""
-
-
-def quit_works(case):
-    case.files.stall("read", "film.mkv")
-    case.start_player()
-    case.ask("open " + os.path.join(case.place, "film.mkv"))
-    met = case.meets_stall()
-    case.ask("quit")
-    return at_once(case, "quit", met, case.code())
-
-
-def signal_works(case):
-    case.files.stall("open", "film.mkv")
-    case.start_player()
-    case.ask("open " + os.path.join(case.place, "film.mkv"))
-    met = case.meets_stall()
-    case.process.send_signal(signal.SIGTERM)
-    return at_once(case, "SIGTERM", met, case.code())
-
-
-def quit_works_on_slow(case, file, pause_s):
-    """Each read is answered, and there are many before it is known what the file is."""
-    case.files.slow = {file: pause_s}
-    case.start_player()
-    case.ask("open " + os.path.join(case.place, file))
-    met = case.meets_stall()
-    before = case.files.count("read", file)
-    case.ask("quit")
-    finding, more = at_once(case, "quit", met, case.code()), case.files.count("read", file) - before
-    return finding or (f"{more} reads after quit" if more > MOST_READS else "")
-
-
-def next_open_works(case, operation, file):
-    case.files.stall(operation, file)
-    case.start_player()
-    case.ask("open " + os.path.join(case.place, "film.mkv"))
-    met = case.meets_stall()
-    good = os.path.join(case.films, "film.mkv")
-    case.ask("open " + good)
-    case.ask("loop on")
-    return at_once(case, "the next open", met and case.plays(good))
-
-
-def plays_when_released(case):
-    case.files.stall("lookup", "film.mkv")
-    case.start_player()
-    film = os.path.join(case.place, "film.mkv")
-    case.ask("loop on")
-    case.ask("open " + film)
-    met = case.meets_stall()
-    case.files.release()
-    return at_once(case, "the release", met and case.plays(film))
 
 
 def author_stops(case):
@@ -237,7 +163,7 @@ def author_stops(case):
     met = case.meets_stall()
     case.process.send_signal(signal.SIGTERM)
     code = case.code()
-    return at_once(case, "SIGTERM", met and code is not None and not os.listdir(case.home))
+    return stalled_player.at_once(case, "SIGTERM", met and code is not None and not os.listdir(case.home))
 
 
 def author_copies(case):
@@ -250,18 +176,10 @@ def author_copies(case):
     case.files.stall("open", "film.mkv", opens - 1)
     case.start("relievo-author --color @/film.mkv -o out.mkv")
     code = case.code()
-    return "" if code == 1 and SAID in case.words() else f"exit code {code}: {case.words()}"
+    return "" if code == 1 and stalled_player.SAID in case.words() else f"exit code {code}: {case.words()}"
 
 
 AT_ONCE = (
-    ("quit", quit_works),
-    ("SIGTERM", signal_works),
-    ("quit, while a slow mount shows a film of TIFF", lambda case: quit_works_on_slow(case, "pages.tiff", 0.05)),
-    ("quit, while a slow mount shows a large photo", lambda case: quit_works_on_slow(case, "large.jpg", 0.005)),
-    ("the next open, after a look-up", lambda case: next_open_works(case, "lookup", "film.mkv")),
-    ("the next open, after the film's folder", lambda case: next_open_works(case, "readdir", "")),
-    ("the next open, after subtitles beside the film", lambda case: next_open_works(case, "read", "film.srt")),
-    ("a release", plays_when_released),
     ("SIGTERM to the author", author_stops),
     ("sound of the author's colour", author_copies),
 )
@@ -271,7 +189,7 @@ def tests():
     """Name and function of each case, and whether it writes."""
     for given in GIVEN_UP:
         yield f"{given[0]} ({given[1]} of {given[2]})", lambda case, given=given: given_up(case, *given), False
-    for each in AT_ONCE:
+    for each in (*AT_ONCE, *stalled_player.TESTS):
         yield *each, False
     for each in stalled_writing.tests():
         yield *each, True
