@@ -17,7 +17,7 @@
 #include "app/cli/program.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/read_files.h"
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/media/playlist.h"
 #include "drivers/registry.h"
 #include "hal/media/video_decoder.h"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/media/film_feed.h"
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/media/photo_list.h"
 #include "app/media/subtitle_file.h"
 #include "platform/files/file_system_answer.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/text/lower_case.h"

@@ -15,7 +15,7 @@
 #include "app/cli/options.h"
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/player/control/player_control.h"
 #include "app/player/film/probe.h"
 #include "app/player/player.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
 #include "platform/text/plain_text.h"

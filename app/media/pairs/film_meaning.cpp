@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/media/pairs/depth_reach.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"

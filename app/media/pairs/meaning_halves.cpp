@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/media/pairs/film_meaning.h"
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/color_map_fit.h"

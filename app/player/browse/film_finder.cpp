@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "hal/media/media_names.h"
 #include "platform/log.h"
 

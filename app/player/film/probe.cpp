@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/depth_window/shots.h"
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "app/media/pairs/long_wait.h"
 #include "app/media/photo_list.h"
 #include "app/player/film/film_changes.h"

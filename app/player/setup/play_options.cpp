@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/cli/options.h"
-#include "app/media/film_folder.h"
+#include "app/media/folder/picture_series.h"
 #include "app/media/playlist.h"
 #include "app/player/control/key_table.h"
 #include "app/player/screen/stereo_word.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which folder is a list of films, and in which order.
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -28,6 +28,15 @@ TEST_F(FilmFolder, ListsItsFilmsInNaturalOrderWithTheirDepth) {
   const auto films = filmsIn(std::filesystem::path(folder_ / "x").parent_path());
   ASSERT_TRUE(films);
   EXPECT_EQ(*films, expected);
+}
+
+TEST_F(FilmFolder, ThePatternOfASeriesLeadsToThatOfItsDepth) {
+  files({"f-01.color.jpg", "f-01.depth.png", "f-02.color.jpg", "f-02.depth.png", "rgb_7.png", "depth_7.png", "a1.png"});
+  EXPECT_EQ(depthBeside(folder_ / "f-%02d.color.jpg"), folder_ / "f-%02d.depth.png");
+  EXPECT_EQ(depthBeside(folder_ / "f-*.color.jpg"), folder_ / "f-*.depth.png");
+  EXPECT_EQ(depthBeside(folder_ / "rgb_%d.png"), folder_ / "depth_%d.png");
+  EXPECT_EQ(depthBeside(folder_ / "a%d.png"), "");
+  EXPECT_EQ(depthBeside(folder_ / "f-%02d.mkv"), "") << "no pictures";
 }
 
 TEST_F(FilmFolder, AFilesDepthLiesBesideItByName) {
@@ -187,20 +196,6 @@ TEST_F(FilmFolder, ASeriesOfPicturesAndARecordingAreNone) {
   EXPECT_TRUE(filmsIn(folder_ / ""));
   std::filesystem::create_directory(folder_ / "depth");
   EXPECT_EQ(filmsIn(folder_ / ""), std::nullopt) << "a recording";
-}
-
-TEST_F(FilmFolder, PicturesThatAShellHasListedAreOneFilm) {
-  files({"f-1.png", "f-2.png", "f-10.png", "g-1.png", "f-1.jpg"});
-  const auto path = [&](const char* name) { return folder_ / name; };
-  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-10.png"), path("f-2.png")}), folder_ / "f-*.png");
-  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-2.png")}), std::nullopt) << "not all that the pattern names";
-  EXPECT_EQ(seriesOf({path("f-1.png"), path("f-1.jpg")}), std::nullopt);
-  EXPECT_EQ(seriesOf({path("f-1.png")}), std::nullopt);
-  EXPECT_EQ(seriesOf({path("f-1.png"), path("a.mkv")}), std::nullopt);
-  std::filesystem::create_directory(folder_ / "a");
-  std::filesystem::create_directory(folder_ / "b");
-  files({"a/1.png", "b/1.png"});
-  EXPECT_EQ(seriesOf({path("a/1.png"), path("b/1.png")}), std::nullopt);
 }
 
 }  // namespace

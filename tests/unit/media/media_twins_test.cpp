@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 #include "tests/support/film/recorded_scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "app/media/film_folder.h"
+#include "app/media/folder/film_folder.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/media/folder/picture_series.h"
 #include "hal/media/media_names.h"
 #include "platform/files/answered_place.h"
 #include "platform/print.h"
@@ -101,6 +102,22 @@ std::string twinOf(const std::string& picture, const FilesByStem& files) {
 bool mayBePhoto(const std::string& name) {
   static constexpr std::array<std::string_view, 7> kPhotos{"jpg", "jpeg", "heic", "heif", "webp", "avif", "png"};
   return std::ranges::find(kPhotos, endingOf(name)) != kPhotos.end();
+}
+
+// The part of a pattern of pictures' names that stands for their numbers; empty for the name of a file.
+std::string numberIn(const std::string& name) {
+  const std::size_t star = name.find('*'), percent = name.find('%');
+  if (star != name.npos) return "*";
+  const std::size_t end = percent == name.npos ? name.npos : name.find_first_not_of("0123456789", percent + 1);
+  return end != name.npos && name[end] == 'd' ? name.substr(percent, end + 1 - percent) : "";
+}
+
+// The name with its last number replaced.
+std::string numbered(const std::string& name, const std::string& number) {
+  const std::size_t last = stemOf(name).find_last_of("0123456789");
+  if (last == name.npos) return name;
+  const std::size_t begin = name.find_last_not_of("0123456789", last) + 1;
+  return name.substr(0, begin) + number + name.substr(last + 1);
 }
 
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
@@ -243,15 +260,16 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
 std::string depthBeside(const std::string& film) {
   const fs::path path(film);
   const MediaKind kind = mediaKindOf(film);
-  if (kind == MediaKind::Neither || !isRegularFile(path)) return "";
+  const std::string number = kind == MediaKind::Picture ? numberIn(path.filename().string()) : "";
+  if (kind == MediaKind::Neither || (number.empty() && !isRegularFile(path))) return "";
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::vector<std::string> names;
   for (const auto& [name, is] : entriesOf(folder)) {
     const bool fits = kind == MediaKind::Film ? mayHoldFilm(name) : mediaKindOf(name) == kind;
-    if (fits && is == FolderEntry::Kind::File) names.push_back(name);
+    if (fits && is == FolderEntry::Kind::File) names.push_back(number.empty() ? name : numbered(name, number));
   }
   std::string depth = depthOf(path.filename().string(), byStem(names));
-  if (depth.empty() && mayBePhoto(film)) depth = twinOf(path.filename().string(), byStem(names));
+  if (depth.empty() && number.empty() && mayBePhoto(film)) depth = twinOf(path.filename().string(), byStem(names));
   if (depth.empty() && kind == MediaKind::Film) {
     const auto pair = filmOverDepth(folder);
     return pair && fs::path(pair->film).filename() == path.filename() ? pair->depth : "";
@@ -266,31 +284,6 @@ std::string photoBeside(const std::string& depth) {
     if (isRegularFile(stem + ending)) return stem + ending;
   }
   return "";
-}
-
-std::optional<std::string> seriesOf(const std::vector<std::string>& sources) {
-  const auto isSpecial = [](const std::string& s) { return s.find_first_of("*?[\\") != s.npos; };
-  const auto isPicture = [&](const std::string& s) {
-    return mediaKindOf(s) == MediaKind::Picture && endingOf(s) == endingOf(sources.front());
-  };
-  if (sources.size() < 2 || !std::ranges::all_of(sources, isPicture)) return std::nullopt;
-  if (std::ranges::any_of(sources, isSpecial)) return std::nullopt;
-  std::string before = sources.front(), behind = sources.front();
-  for (const std::string& source : sources) {
-    const auto at = std::ranges::mismatch(before, source).in1;
-    before.erase(at, before.end());
-    const auto from = std::ranges::mismatch(behind.rbegin(), behind.rend(), source.rbegin(), source.rend()).in1;
-    behind.erase(behind.begin(), from.base());
-  }
-  const std::string folder = before.substr(0, before.rfind('/') + 1);
-  std::size_t named = 0;
-  for (const auto& entry : entriesOf(folder.empty() ? "." : folder)) {
-    const std::string path = folder + entry.name;
-    const bool long_enough = path.size() >= before.size() + behind.size();
-    if (long_enough && path.starts_with(before) && path.ends_with(behind)) ++named;
-  }
-  const bool one_folder = behind.find('/') == behind.npos;
-  return one_folder && named == sources.size() ? std::optional(before + "*" + behind) : std::nullopt;
 }
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the films of a folder, and recognises pictures that a shell has listed as one film.
+// Lists the films of a folder, and finds the depth beside a film.
 #pragma once
 
 #include <optional>
@@ -31,14 +31,11 @@ struct FilmOverDepth {
 // the same with another of kDepthWords (media_names.h) for depth; a_depth or a_vis for a_src or a_input; else names
 // such as a_video_depth and a_depth_vis. Small letters and capitals are the same. A film's may be a .npy or .tif too.
 // Else the folder of its depth pictures: `filmOverDepth`. A picture's may be a file of its own name, too: a.npy or
-// a.png for a.jpg; whether that holds depth, its samples decide. Empty if there is none.
+// a.png for a.jpg; whether that holds depth, its samples decide. Of a pattern of pictures ("a%04d.color.jpg" or
+// "a*.color.jpg"), the pattern of their depth ("a%04d.depth.png"). Empty if there is none.
 [[nodiscard]] std::string depthBeside(const std::string& film);
 
 // The photo of a file of numbers: a.jpg for a.npy. Empty if there is none.
 [[nodiscard]] std::string photoBeside(const std::string& depth);
-
-// The pattern ("a/frame-*.png") that names exactly these pictures, all of one folder, as a shell has expanded it.
-// nullopt if they are fewer than two, or no such series.
-[[nodiscard]] std::optional<std::string> seriesOf(const std::vector<std::string>& sources);
 
 }  // namespace relievo
