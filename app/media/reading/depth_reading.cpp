@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "app/media/reading/codes/far_background.h"
+#include "app/media/reading/codes/stragglers.h"
 #include "app/media/reading/float_reading.h"
 #include "platform/print.h"
 
@@ -50,11 +51,12 @@ std::string holesText(double share) {
 DepthReading readDistances(const CodeCount& count, double unit_mm, const CodeSet& invalid, const char* what) {
   const CodeCount valid = count.without(invalid);
   if (valid.samples() == 0) return {};
-  const auto reach = valid.reach(kOutliers, 0, kTop);
+  const DistanceReach reach = distanceReach(valid, 0, kTop);
   const double near = std::max(1.0, std::floor(kNearer * unit_mm * reach.low));
-  const double far = std::max(near + 1, std::ceil(kFarther * unit_mm * reach.high));
+  const auto farOf = [&](double high) { return std::max(near + 1, std::ceil(kFarther * unit_mm * high)); };
   DepthReading reading;
-  reading.settings = {{"near", number(near)}, {"far", number(far)}};
+  reading.settings = {{"near", number(near)}, {"far", number(farOf(reach.high))}};
+  reading.doubt = stragglersLine(reach, unit_mm, near, farOf(reach.farthest));
   reading.why =
       print("codes of %u to %u%s: %s, %.2f to %.2f m", reach.low, reach.high, holesText(count.share(invalid)).c_str(),
             what, 1e-3 * unit_mm * reach.low, 1e-3 * unit_mm * reach.high);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/media/reading/codes/stragglers.h"
 #include "app/media/reading/depth_doubts.h"
 #include "platform/print.h"
 #include "platform/text/lower_case.h"
@@ -43,14 +44,19 @@ std::optional<double> unitIn(const CalibrationLayers& said) {
 struct Reach {
   double low = 0, median = 0, high = 0, holes = 0;
   bool relative = false;
+  DistanceReach distances;
   double value = 1, zero = 0;  // number = zero + value * code
 };
 Reach reachOf(const Frame& depth, const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   const std::uint32_t median = count.quantile(0.5, 1, kTop);
-  return {static_cast<double>(low),  static_cast<double>(median),
-          static_cast<double>(high), count.share(0, 0),
-          areRelative(count),        depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1,
+  return {static_cast<double>(low),
+          static_cast<double>(median),
+          static_cast<double>(high),
+          count.share(0, 0),
+          areRelative(count),
+          distanceReach(count, 1, kTop),
+          depth.value_per_code != 0 ? std::abs(depth.value_per_code) : 1,
           depth.value_at_zero};
 }
 
@@ -81,7 +87,9 @@ DepthReading distances(const Reach& reach, std::optional<double> stated_unit_mm)
   const double value = reach.value;
   const bool metres = value * reach.median < kFarthestMetres;
   const double unit_mm = stated_unit_mm.value_or(value * (metres ? kMmPerMetre : 1));
-  const double near = kNearer * unit_mm * reach.low, far = kFarther * unit_mm * std::max(reach.high, reach.low + 1);
+  const double near = kNearer * unit_mm * reach.low;
+  const auto farOf = [&](double high) { return kFarther * unit_mm * std::max(high, reach.low + 1); };
+  const double far = farOf(reach.distances.high);
   DepthReading reading;
   if (std::min(unit_mm, near) < kLeastMm || far > kMostMm) {
     reading.settings = {
@@ -92,6 +100,7 @@ DepthReading distances(const Reach& reach, std::optional<double> stated_unit_mm)
   }
   reading.settings = {
       {"unit", print("%.9g", unit_mm)}, {"invalid", "0"}, {"near", print("%.6g", near)}, {"far", print("%.6g", far)}};
+  reading.doubt = stragglersLine(reach.distances, unit_mm, near, farOf(reach.high));
   const char* const unit = stated_unit_mm ? "" : metres ? " in m" : " in mm";
   reading.why = described(reach) + ": distances" + unit;
   if (stated_unit_mm) return reading;

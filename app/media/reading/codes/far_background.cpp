@@ -43,7 +43,8 @@ void leaveOut(const CodeSet::Range& background, const CodeCount& count, Calibrat
   }
   std::string& holes = read.settings.try_emplace("invalid", "none").first->second;
   holes = withBackground(holes, background);
-  read.doubt = print(
+  read.doubt += read.doubt.empty() ? "" : "; ";
+  read.doubt += print(
       "%.1f %% of the depth is one distance far behind all else: taken for background, which is not felt; if it is a "
       "wall: --calibration invalid=0",
       100 * count.share(background.low, background.high));

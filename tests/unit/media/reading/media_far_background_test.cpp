@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rendered distances whose sky or far plane is one code far behind all else.
+// Distances far behind all else: a renderer's sky or far plane as one code, or a few of a sensor's.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/media/reading/depth_meaning.h"
@@ -15,6 +16,7 @@ namespace relievo {
 namespace {
 
 using test::distanceMm;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -80,6 +82,30 @@ TEST(FarBackground, IsLeftInWhatIsNoDistance) {
   EXPECT_GE(disparities.calibration.calibration.highCode(), 20'000);
   const DepthMeaning shades = meaningOf(rendered(0.05, 5'000, 0, 8));
   EXPECT_TRUE(shades.calibration.calibration.invalid.empty());
+}
+
+// A few distances that a sensor returns through a window, at rims, or wrong: each `one_in` of the scene's.
+DepthMeaning withFarOnes(int one_in, double codes_per_mm, double value_per_code) {
+  Frame frame = test::makeGrayFrame(kCols, kRows, 16, {}, [&, i = 0](int c, int r) mutable {
+    const double mm = distanceMm(c, r);
+    const double far = ++i % one_in == 0 ? 9'000 + i % 3'000 : 0;
+    return std::lround(codes_per_mm * (mm == 0 ? 0 : std::max(mm, far)));
+  });
+  frame.value_per_code = value_per_code;
+  return meaningOf(frame, value_per_code == 0 ? DepthClues{} : DepthClues{.codec = "npy", .path = "depth.npy"});
+}
+
+TEST(FewFarDistances, DoNotFlattenTheSceneBeforeThem) {
+  for (const double value_per_code : {0.0, 0.001}) {
+    SCOPED_TRACE(value_per_code);
+    const DepthMeaning few = withFarOnes(150, 1, value_per_code);
+    EXPECT_NEAR(few.calibration.calibration.far_mm, 1.1 * 1'990, 20);
+    EXPECT_THAT(few.reading.doubts,
+                Contains(AllOf(HasSubstr("0.7 % of the depth lies beyond 1.9"), HasSubstr("near="))));
+    const DepthMeaning part = withFarOnes(50, 1, value_per_code);  // a part of the scene
+    EXPECT_GT(part.calibration.calibration.far_mm, 10'000);
+    EXPECT_THAT(part.reading.doubts, IsEmpty());
+  }
 }
 
 }  // namespace

@@ -122,29 +122,6 @@ TEST(FloatReading, RelativeDisparitiesThatBeginAtZeroAreLinear) {
   EXPECT_GT(film.heightAt(30, 40), film.heightAt(30, 10) + 0.5);
 }
 
-// As MiDaS's and other networks' raw output: scaled and shifted as it happens.
-TEST(FloatReading, NumbersOnBothSidesOfZeroAreNearWhereTheyAreLarge) {
-  const TemporaryFolder folder;
-  writePfm(folder / "moon.pfm", [](double m) { return 2.5 - m; });
-  const test::OpenedFilm film = test::openFilm({.url = folder / "moon.pfm"});
-  EXPECT_EQ(film.info.calibration.calibration.law, DepthLaw::Linear);
-  EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
-  const double scale = (film.heightAt(30, 40) - film.heightAt(30, 10)) / (metresAt(30, 10) - metresAt(30, 40));
-  EXPECT_GT(scale, 0.35) << "of the box, a metre; the scene is 2.4 m deep";
-  EXPECT_NEAR(film.heightAt(12, 44) - film.heightAt(60, 4), scale * (metresAt(60, 4) - metresAt(12, 44)), 0.01);
-  EXPECT_TRUE(std::isnan(film.heightAt(2, 2)));
-  EXPECT_THAT(film.info.reading.why, Contains(HasSubstr("numbers of -1.5")));
-  EXPECT_THAT(film.info.reading.doubts, IsEmpty());
-
-  SourceOptions said{.url = folder / "moon.pfm"};
-  said.command_line = {{"polarity", "near-low"}};
-  const test::OpenedFilm turned = test::openFilm(said);
-  EXPECT_LT(turned.heightAt(30, 40), turned.heightAt(30, 10));
-  writePfm(folder / "sun.pfm", [](double m) { return m - 2.5; });
-  EXPECT_THAT(test::openFilm({.url = folder / "sun.pfm"}).info.reading.doubts,
-              Contains(HasSubstr("polarity=near-low")));
-}
-
 TEST(FloatReading, DepthWithoutColourIsFeltAndShownAsGray) {
   const TemporaryFolder folder;
   writePfm(folder / "depth.pfm", [](double m) { return m; });
