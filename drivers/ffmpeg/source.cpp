@@ -15,7 +15,7 @@
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/file_times.h"
 #include "drivers/ffmpeg/library.h"
-#include "drivers/ffmpeg/opening.h"
+#include "drivers/ffmpeg/opening/opening.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"

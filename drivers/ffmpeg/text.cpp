@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "drivers/ffmpeg/address.h"
-#include "drivers/ffmpeg/apart.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
+#include "drivers/ffmpeg/opening/apart.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/watch.h"
 #include "platform/files/answered_file.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/ffmpeg/apart.h"
+#include "drivers/ffmpeg/opening/apart.h"
 
 #include <atomic>
 #include <chrono>

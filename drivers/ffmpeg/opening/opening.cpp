@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/ffmpeg/opening.h"
+#include "drivers/ffmpeg/opening/opening.h"
 
 #include <atomic>
 #include <utility>
 
 #include "drivers/ffmpeg/address.h"
-#include "drivers/ffmpeg/apart.h"
+#include "drivers/ffmpeg/opening/apart.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "platform/files/file_system_answer.h"
 
