@@ -17,9 +17,11 @@ inline constexpr int kNarrowSamples = 3, kWideSamples = 15, kBroadSamples = 10;
 struct FeltScale {
   double narrow_mm = 0.28;  // of the narrow level, which keeps edges
   double wide_mm = 0.72;  // of the wide level, used away from edges; if not wider than narrow, only one level is built
+  double middle_mm = 0;   // of the middle level, used at creases; if not wider than narrow, there is none
   double broad_mm = 0;  // of the broad level, used where the surface is straight; if not wider than wide, there is none
-  double straight_mm = 0;  // second differences of the broad level's control points that count as straight
-  double clamp_mm = 0.25;  // how far the wide level may deviate from the narrow one
+  double wide_even_mm = 0;   // up to this the relief is even for the wide level (Evenness), in mm; 0: everywhere
+  double broad_even_mm = 0;  // the same for the broad level; 0: nowhere
+  double clamp_mm = 0.25;    // how far the wide level may deviate from the narrow one
   // Of what the fitted spline adds to the B-spline in time: less than this is noise (TimeLaw::Adapted).
   double narrow_steady_mm = 0, wide_steady_mm = 0;
   TimeLaw narrow_time = TimeLaw::Linear;

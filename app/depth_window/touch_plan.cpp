@@ -62,9 +62,15 @@ constexpr double kFlattening = 5e-4;
 
 // Where the surface is straight, nothing is flattened by a broader level: twice as wide, it leaves half of the steps;
 // under noise, 2.5 times as wide, less than a quarter. Its control points then bend by no more than three things do
-// together: a ball of 150 mm, half a step, and three standard deviations of the noise in one frame, by which
-// ControlGrid judges them. Those of a ball of 45 mm, 6 mm apart, bend by .8 mm.
+// together: a ball of 150 mm, half a step, and three standard deviations of the noise in one frame, by which Evenness
+// judges them. Those of a ball of 45 mm, 6 mm apart, bend by .8 mm.
 constexpr double kBroadOverWide = 2, kBroadUnderNoise = 2.5, kStraightRadiusMm = 150, kStepsBend = 0.5, kNoiseBends = 3;
+// At creases a middle level rounds less. The wide one, with control points h apart, loses a slope of f = b/(kFlattens
+// h) where the fourth difference of its blocks is b. Steps and noise leave it an error n, and the middle one m. The
+// blend that leaves least in all gives the wide level the share m (m - n)/(f^2 + (m - n)^2), less than all of it from
+// f = sqrt(n (m - n)) on. The middle level takes over from twice that on: in between both levels are read. Noise makes
+// b greater by a part of its deviation.
+constexpr double kMiddleOverWide = 0.6, kFlattens = 9, kCreases = 2, kFourthVariance = 70, kCreaseNoise = 0.5;
 // Low waves bend no more than that. So there is no broad level where it would flatten swells by more than half of the
 // error that the wide level leaves, nor where waves are found: its points may lie on their middle line.
 constexpr double kFlattenedOfError = 0.5;
@@ -103,6 +109,26 @@ double samplesApart(const ClipMeasure& m, double width_mm, int read) {
   return block / std::sqrt((m.whole_rows ? across : read) * down);
 }
 
+// What steps and noise leave in the slope under a width; `of_worst`: of the worst slope's error of steps.
+struct SlopeErrors {
+  double steps = 0, noise = 0, of_worst = 0;
+  [[nodiscard]] double at(const ClipMeasure& m, double w, int read) const {
+    return std::hypot(kNoiseOverSlope * noise * samplesApart(m, w, read) / (w * w),
+                      of_worst * steps / (kStepsOverWorstSlope * w));
+  }
+};
+
+void chooseMiddle(const SlopeErrors& errors, TouchPlan& plan) {
+  const ClipMeasure& m = plan.measure;
+  FeltScale& s = plan.scale;
+  s.middle_mm = kMiddleOverWide * s.wide_mm;
+  const double of_middle = errors.at(m, s.middle_mm, kWideSamples), of_wide = errors.at(m, s.wide_mm, kWideSamples);
+  const double h = s.wide_mm / kSigmaPerPitch;
+  s.wide_even_mm =
+      kCreases * kFlattens * h * std::sqrt(of_wide * (of_middle - of_wide)) +
+      kCreaseNoise * std::sqrt(kFourthVariance) * m.noise_mm * samplesApart(m, s.wide_mm, kWideSamples) / h;
+}
+
 void chooseBroad(bool noisy, TouchPlan& plan) {
   const ClipMeasure& m = plan.measure;
   FeltScale& s = plan.scale;
@@ -110,8 +136,8 @@ void chooseBroad(bool noisy, TouchPlan& plan) {
   if (swellsFlattenedBy(broad, m.swells_mm) > kFlattenedOfError * plan.error) return;
   const double pitch = broad / kSigmaPerPitch, samples = pitch / samplesApart(m, broad, kBroadSamples);
   s.broad_mm = broad;
-  s.straight_mm = pitch * pitch / kStraightRadiusMm + kStepsBend * stepsUnderNoise(m) +
-                  kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
+  s.broad_even_mm = pitch * pitch / kStraightRadiusMm + kStepsBend * stepsUnderNoise(m) +
+                    kNoiseBends * m.noise_mm * std::sqrt(kBendVariance) / samples;
 }
 
 std::string reasonFor(const TouchPlan& plan, const LookAhead& ahead) {
@@ -169,7 +195,10 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
   s.narrow_steady_mm = steady(s.narrow_mm, kNarrowSamples, kSteadySteps);
   s.wide_steady_mm = steady(s.wide_mm, kWideSamples, coded ? kSteadyCoded : kSteadySteps);
   plan.error = errorOf(s.wide_mm, kExpectedOfWorst);
-  if (!fine && greatest(waves) <= steps) chooseBroad(noisy, plan);
+  if (!fine && greatest(waves) <= steps) {
+    chooseMiddle({steps, m.noise_mm * through, of_worst}, plan);
+    chooseBroad(noisy, plan);
+  }
 
   // The narrow level's error must fit under the clamp: five standard deviations of its noise plus one step. Within that
   // the wide level alone counts (FeltSurface).

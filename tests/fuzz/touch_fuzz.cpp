@@ -47,7 +47,11 @@ class Episode {
         config.scale.wide_time = laws[random_.below(std::size(laws))];
         if (random_.chance(0.5)) {
           config.scale.broad_mm = random_.within(1.2, 3) * config.scale.wide_mm;
-          config.scale.straight_mm = random_.within(0.01, 0.5);
+          config.scale.broad_even_mm = random_.within(0.01, 0.5);
+        }
+        if (random_.chance(0.5)) {
+          config.scale.middle_mm = random_.within(0.3, 1) * config.scale.wide_mm;
+          config.scale.wide_even_mm = random_.within(0.01, 0.5);
         }
       }
       if (random_.chance(0.3)) config.friction = {random_.within(0, 1), random_.within(0, 0.5)};

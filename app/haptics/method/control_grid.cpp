@@ -42,7 +42,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
   const double pitch2 = 1 / std::abs(a_per_mm_ * b_per_mm_);  // a parabola of radius R bends by pitch^2/R
   most_bend_mm_ = static_cast<float>(std::min(pitch2 / kSharpestMm, kMostBendMm));
   pit_mm_ = static_cast<float>(-field.depthMm());
-  patch_ = ahead_ = bent_ = {};
+  patch_ = ahead_ = {};
   slots_read_ = 0;
   filled_.fill(0);
   hole_.fill(0);
@@ -50,7 +50,7 @@ void ControlGrid::setPicture(const HeightField& field) RELIEVO_RT {
 }
 
 void ControlGrid::forgetFrame(int slot) RELIEVO_RT {
-  patch_ = ahead_ = bent_ = {};
+  patch_ = ahead_ = {};
   slots_read_ &= ~(1U << slot);
   const auto keep = static_cast<std::uint8_t>(~(1U << slot));
   for (std::uint8_t& bits : filled_) bits &= keep;
@@ -175,21 +175,15 @@ void ControlGrid::keepCurvature(int i, int j, std::uint32_t missing) RELIEVO_RT 
   for (std::size_t half = 0; half < 2; ++half) {  // of the slots
     const auto of = [half](Heights& heights, std::size_t point) RELIEVO_RT { return &heights[point][4 * half]; };
     const Float4 mean = load4(of(mean_, p));
-    Float4 most{};
     const auto bent = [&](std::size_t before, std::size_t after, const Int4& holes) RELIEVO_RT {
       constexpr Float4 kNone{};
       const Float4 bend = load4(of(mean_, before)) - 2 * mean + load4(of(mean_, after));
       const Float4 size = holes ? kNone + std::numeric_limits<float>::infinity() : bend > -bend ? bend : -bend;
-      most = size > most ? size : most;
       const Float4 rest = twice - size, least = size < rest ? size : rest, counts = least > kNone ? least : kNone;
       return bend < kNone ? -counts : counts;
     };
     const Float4 bends = bent(left, right, across_hole[half]) + bent(above, below, down_hole[half]);
     store4(of(height_, p), wanted[half] ? mean - bend_ * bends : load4(of(height_, p)));
-    if (straight_ == nullptr) continue;
-    const Float4 straight = 2 - most / straight_->most_mm, least = straight > 0 ? straight : Float4{};
-    store4(of(straight_->of_points, p),
-           wanted[half] ? least < 1 ? least : Float4{} + 1 : load4(of(straight_->of_points, p)));
   }
 }
 
@@ -233,34 +227,15 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
   }
 }
 
-void ControlGrid::straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT {
-  weighted<1>(straight_->of_points, i0, j0, {&frames.weight}, {&out});
-}
-
-bool ControlGrid::isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT {
-  const auto counts = [&](int slot) RELIEVO_RT { return frames.weight[static_cast<std::size_t>(slot)] >= least; };
-  if (bent_ == Place{i0, j0, bent_.slots} && bent_.slots != 0 && counts(__builtin_ctz(bent_.slots))) return true;
-  bent_ = {};
-  const std::uint8_t* const at = frames.frame_of_slot.data();
-  int newest = -1;
-  for (std::uint32_t slots = frames.wanted; slots != 0; slots &= slots - 1) {
-    const int slot = __builtin_ctz(slots);
-    if (counts(slot) && (newest < 0 || at[slot] > at[newest])) newest = slot;
+float ControlGrid::mean(int i, int j, const Frames& one) RELIEVO_RT {
+  if (slotsMissing(i, j, one) != 0) {
+    const std::size_t p = slotOf(i, j);
+    if (i_[p] != i || j_[p] != j) patch_ = {};  // one of its points may be replaced
+    fill(i, j, one);
   }
-  if (newest < 0) return false;
-  Frames one = frames;
-  one.wanted = 1U << newest;
-  if (!wasPatch(i0, j0, frames.wanted)) {
-    patch_ = {};  // its points may be replaced
-    complete({i0, j0, i0 + 4, j0 + 4}, one);
-  }
-  for (int j = j0; j < j0 + 4; ++j) {
-    for (int i = i0; i < i0 + 4; ++i) {
-      if (straight_->of_points[slotOf(i, j)][static_cast<std::size_t>(newest)] > 0) return false;
-    }
-  }
-  bent_ = {i0, j0, one.wanted};
-  return true;
+  const std::size_t p = slotOf(i, j);
+  const auto slot = static_cast<std::size_t>(__builtin_ctz(one.wanted));
+  return (hole_[p] & one.wanted) != 0 ? std::numeric_limits<float>::quiet_NaN() : mean_[p][slot];
 }
 
 bool ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELIEVO_RT {
@@ -284,6 +259,28 @@ bool ControlGrid::readAhead(int i0, int j0, const Frames& frames, int most) RELI
 
 void ControlGrid::prefetch() const RELIEVO_RT {
   relievo::prefetch(this, &i_);
+}
+
+void WeighedFrames::weigh(TimeLaw by, const FrameSlots& slots, const FrameMoment& at,
+                          const FrameMoment& at_later) RELIEVO_RT {
+  moment = at;
+  law = by;
+  frames.window = slots.window;
+  frames.frame_of_slot = slots.frame;
+  frames.weight.fill(0);
+  frames.wanted = 0;
+  added.fill(0);
+  later.fill(0);
+  const FrameTaps taps(at, by), then(at_later, by);
+  const FrameTaps more = by == TimeLaw::Adapted ? FrameTaps::addedByFitted(at) : FrameTaps{};
+  for (std::size_t i = 0; i < FrameTaps::kCount; ++i) {
+    if (taps.weight[i] == 0 && then.weight[i] == 0 && more.weight[i] == 0) continue;
+    const std::uint8_t slot = slots.of_frame[FrameTaps::frame(at, static_cast<int>(i))];
+    frames.weight[slot] += taps.weight[i];
+    later[slot] += then.weight[i];
+    added[slot] += more.weight[i];
+    frames.wanted |= 1U << slot;
+  }
 }
 
 }  // namespace relievo

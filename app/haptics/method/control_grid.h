@@ -24,9 +24,6 @@ using Patch = std::array<Float4, 4>;
 // than half of it, and of its neighbourhood, has a reading. Holes and everything outside the picture are pits one
 // volume depth below the far plane: free space with the same rounded rim as any other edge.
 //
-// A point is straight (1) if its second differences are at most `StraightPoints::most_mm`, and not (0) from twice that
-// on or beside a hole.
-//
 // Nothing is built in advance: a block is read when it is first needed and kept in a toroidal cache of 16 x 16 points
 // while its frame is in the window. 19 KiB, fixed.
 class ControlGrid {
@@ -36,17 +33,12 @@ class ControlGrid {
   static constexpr int kSide = 16;
   static constexpr std::size_t kPoints = static_cast<std::size_t>(kSide) * kSide;
   using Heights = std::array<std::array<float, kFrames>, kPoints>;  // of each point, by slot
-  struct StraightPoints {
-    float most_mm = 0;
-    alignas(16) Heights of_points{};
-  };
 
   // `samples`: approximate number read per block, across and down (SampledBlock). `bend`: 5/24 keeps the curvature
   // under a cubic B-spline, 1/6 under a quadratic one (half the variance of block and spline); 0 uses the means
-  // unchanged. `straight`: stores which points are straight, and must outlive the grid; null: not computed. Needs a
-  // `bend` over 0.
-  ControlGrid(double pitch_mm, int most_samples, float bend, StraightPoints* straight = nullptr) noexcept
-      : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend), straight_(straight) {}
+  // unchanged.
+  ControlGrid(double pitch_mm, int most_samples, float bend) noexcept
+      : pitch_wanted_mm_(pitch_mm), most_samples_(most_samples), bend_(bend) {}
   static constexpr double kSharpestMm = 5, kMostBendMm = 3;
 
   // Discards everything, for a picture of another shape.
@@ -85,14 +77,19 @@ class ControlGrid {
   template <std::size_t kSets>
   void weighted(int i0, int j0, const std::array<const Weights*, kSets>& weights,
                 const std::array<Patch*, kSets>& out) const RELIEVO_RT {
-    weighted(height_, i0, j0, weights, out);
+    for (int j = 0; j < 4; ++j) {
+      const auto heights = [&](int i) RELIEVO_RT { return height_[slotOf(i0 + i, j0 + j)].data(); };
+      const float *const a = heights(0), *const b = heights(1), *const c = heights(2), *const d = heights(3);
+      for (std::size_t set = 0; set < kSets; ++set) {
+        const Float4 low = load4(weights[set]->data()), high = load4(weights[set]->data() + 4);
+        const auto sum = [&](const float* of) RELIEVO_RT { return load4(of) * low + load4(of + 4) * high; };
+        (*out[set])[static_cast<std::size_t>(j)] = sums(sum(a), sum(b), sum(c), sum(d));
+      }
+    }
   }
   [[nodiscard]] bool patchHasHoles() const RELIEVO_RT { return patch_holes_; }
-  // How straight the same points are, 0 .. 1; after `patch` with the same frames.
-  void straightness(int i0, int j0, const Frames& frames, Patch& out) const RELIEVO_RT;
-  // True if one of the frames with at least `least` of the weight has no straight point there. It reads the newest of
-  // these frames, and asks for another one when that has lost its weight.
-  [[nodiscard]] bool isBent(int i0, int j0, const Frames& frames, float least) RELIEVO_RT;
+  // The mean of a point's block in one frame, which is read if it was not; NaN at a hole.
+  [[nodiscard]] float mean(int i, int j, const Frames& one) RELIEVO_RT;
   // Reads blocks around a place, of frames that will get a weight soon; stops once it has read `most` of them, or one
   // block of every frame. Reads none so far away that they would evict the last patch. True if all of them have been
   // read.
@@ -131,33 +128,19 @@ class ControlGrid {
   [[nodiscard]] Lacking prefetchRow(int i0, int i1, int j, const Frames& frames) const RELIEVO_RT;
   void read(std::size_t point, const Frames& frames, std::uint32_t missing) RELIEVO_RT;
   [[nodiscard]] double bridged(const HeightField& field, int c, int r, const SampledBlock& block) const RELIEVO_RT;
-  template <std::size_t kSets>
-  static void weighted(const Heights& of_points, int i0, int j0, const std::array<const Weights*, kSets>& weights,
-                       const std::array<Patch*, kSets>& out) RELIEVO_RT {
-    for (int j = 0; j < 4; ++j) {
-      const auto heights = [&](int i) RELIEVO_RT { return of_points[slotOf(i0 + i, j0 + j)].data(); };
-      const float *const a = heights(0), *const b = heights(1), *const c = heights(2), *const d = heights(3);
-      for (std::size_t set = 0; set < kSets; ++set) {
-        const Float4 low = load4(weights[set]->data()), high = load4(weights[set]->data() + 4);
-        const auto sum = [&](const float* of) RELIEVO_RT { return load4(of) * low + load4(of + 4) * high; };
-        (*out[set])[static_cast<std::size_t>(j)] = sums(sum(a), sum(b), sum(c), sum(d));
-      }
-    }
-  }
   [[nodiscard]] float withHoles(std::size_t point, const Frames& frames) const RELIEVO_RT;
 
   double pitch_wanted_mm_;
   int most_samples_;
   float bend_;
-  StraightPoints* straight_;
   float most_bend_mm_ = 0;  // largest second difference that counts in full
   int cols_ = 0, rows_ = 0;
   SampledBlock block_;
   double a_per_mm_ = 1, a_origin_ = 0, b_per_mm_ = -1, b_origin_ = 0;
   float pit_mm_ = -40;
-  // The last patch, all of whose points are valid, the last place of `readAhead`, and the place and frame of the last
-  // `isBent` that was true. Their `slots` are 0 once something was discarded or replaced.
-  Place patch_, ahead_, bent_;
+  // The last patch, all of whose points are valid, and the last place of `readAhead`. Their `slots` are 0 once
+  // something was discarded or replaced.
+  Place patch_, ahead_;
   bool patch_holes_ = false;
   std::uint32_t slots_read_ = 0;
   std::uint64_t blocks_read_ = 0;
@@ -165,6 +148,25 @@ class ControlGrid {
   std::array<std::int32_t, kPoints> i_{}, j_{};
   std::array<std::uint8_t, kPoints> filled_{}, hole_{}, complete_{};
   alignas(16) Heights mean_{}, height_{};
+};
+
+// The cache slot of each frame of the window.
+struct FrameSlots {
+  const SurfaceWindow* window = nullptr;
+  std::array<std::uint8_t, ControlGrid::kFrames> of_frame{};
+  std::array<std::uint8_t, ControlGrid::kFrames> frame{};
+  std::uint32_t in_use = 0;  // one bit per slot
+};
+
+struct WeighedFrames {
+  FrameMoment moment;
+  TimeLaw law = TimeLaw::Hold;
+  ControlGrid::Frames frames;
+  alignas(16) ControlGrid::Weights added{};  // weights of what TimeLaw::Adapted may add
+  alignas(16) ControlGrid::Weights later{};  // at a later moment, without what is added
+
+  // `at_later`: a moment at which the present frame is the same.
+  void weigh(TimeLaw by, const FrameSlots& slots, const FrameMoment& at, const FrameMoment& at_later) RELIEVO_RT;
 };
 
 }  // namespace relievo

@@ -38,7 +38,7 @@ struct SoftClamp {
 FeltSurface::FeltSurface(const FeltScale& scale) noexcept
     : scale_(scale),
       narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened,
-              nullptr, scale.narrow_steady_mm),
+              scale.narrow_steady_mm),
       smooth_(scale),
       two_levels_(scale.wide_mm > scale.narrow_mm) {}
 

@@ -1,104 +1,136 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two levels, blended by the product rule.
+// The levels, from the widest to the narrowest, blended by the product rule.
 #include "app/haptics/method/smooth_level.h"
-
-#include <algorithm>
 
 #include "platform/prefetch.h"
 
 namespace relievo {
 namespace {
 
-// The weight of points that are not straight at which the broad level no longer counts.
-constexpr double kMostBent = 0.05;
+SurfaceLevel levelOf(const FeltScale& scale, double width_mm, int samples, TimeLaw law) {
+  return {width_mm > 0 ? width_mm : scale.wide_mm,
+          samples,
+          scale.space,
+          law,
+          SurfaceLevel::Curvature::Kept,
+          scale.wide_steady_mm};
+}
 
-// h(t): from 0 at t = 1 - kMostBent to 1 at t = 1, with two continuous derivatives (6 e^5 - 15 e^4 + 10 e^3).
-SurfacePoint shareOf(const SurfacePoint& t) RELIEVO_RT {
-  const double e = 1 - std::min(std::max(1 - t.z, 0.0), kMostBent) / kMostBent, rest = 1 - e;
-  const double slope = 30 * e * e * rest * rest / kMostBent;
-  const double bend = 60 * e * rest * (rest - e) / (kMostBent * kMostBent);
-  return {e * e * e * (10 + e * (6 * e - 15)),
-          slope * t.zx,
-          slope * t.zy,
-          slope * t.zxx + bend * t.zx * t.zx,
-          slope * t.zxy + bend * t.zx * t.zy,
-          slope * t.zyy + bend * t.zy * t.zy};
+// A crease needs no more of time than that its place is right, so that few frames are read. Flicker needs them.
+TimeLaw ofMiddle(TimeLaw wide) {
+  return wide == TimeLaw::Mean || wide == TimeLaw::Hold ? wide : TimeLaw::Linear;
+}
+
+// a + t (b - a).
+SurfacePoint blended(const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& t) RELIEVO_RT {
+  const double d = b.z - a.z, dx = b.zx - a.zx, dy = b.zy - a.zy;
+  return {a.z + t.z * d,
+          a.zx + t.z * dx + t.zx * d,
+          a.zy + t.z * dy + t.zy * d,
+          a.zxx + t.z * (b.zxx - a.zxx) + 2 * t.zx * dx + t.zxx * d,
+          a.zxy + t.z * (b.zxy - a.zxy) + t.zx * dy + t.zy * dx + t.zxy * d,
+          a.zyy + t.z * (b.zyy - a.zyy) + 2 * t.zy * dy + t.zyy * d};
 }
 
 }  // namespace
 
 SmoothLevel::SmoothLevel(const FeltScale& scale) noexcept
-    : straight_{.most_mm = static_cast<float>(scale.straight_mm)},
-      wide_(scale.wide_mm, kWideSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept, nullptr,
-            scale.wide_steady_mm),
-      broad_(scale.broad_mm, kBroadSamples, scale.space, scale.wide_time, SurfaceLevel::Curvature::Kept,
-             scale.straight_mm > 0 ? &straight_ : nullptr, scale.wide_steady_mm),
-      has_broad_(scale.broad_mm > scale.wide_mm && scale.straight_mm > 0) {}
+    : levels_{Level{levelOf(scale, scale.middle_mm, kWideSamples, ofMiddle(scale.wide_time)),
+                    Evenness(0, Evenness::Edges::Even)},
+              Level{levelOf(scale, scale.wide_mm, kWideSamples, scale.wide_time),
+                    Evenness(scale.wide_even_mm, Evenness::Edges::Even)},
+              Level{levelOf(scale, scale.broad_mm, kBroadSamples, scale.wide_time),
+                    Evenness(scale.broad_even_mm, Evenness::Edges::Uneven)}},
+      narrowest_(scale.middle_mm > scale.narrow_mm && scale.wide_even_mm > 0 ? kMiddle : kWide),
+      widest_(scale.broad_mm > scale.wide_mm && scale.broad_even_mm > 0 ? kBroad : kWide) {}
 
 void SmoothLevel::setPicture(const HeightField& field) RELIEVO_RT {
-  wide_.grid().setPicture(field);
-  broad_.grid().setPicture(field);
+  for (Level& level : levels_) {
+    level.surface.grid().setPicture(field);
+    level.evenness.forget();
+    level.absent = false;
+  }
 }
 
 void SmoothLevel::forgetFrame(int slot) RELIEVO_RT {
-  wide_.grid().forgetFrame(slot);
-  broad_.grid().forgetFrame(slot);
+  for (Level& level : levels_) {
+    level.surface.grid().forgetFrame(slot);
+    level.evenness.forget(slot);
+  }
 }
 
 bool SmoothLevel::isWiderThan(const ControlGrid& narrow) const RELIEVO_RT {
-  return wide_.grid().blockCols() > narrow.blockCols() || wide_.grid().blockRows() > narrow.blockRows();
+  const ControlGrid& wide = levels_[kWide].surface.grid();
+  return wide.blockCols() > narrow.blockCols() || wide.blockRows() > narrow.blockRows();
+}
+
+std::uint64_t SmoothLevel::blocksRead() const RELIEVO_RT {
+  std::uint64_t blocks = 0;
+  for (const Level& level : levels_) blocks += level.surface.grid().blocksRead();
+  return blocks;
 }
 
 RELIEVO_TICK_CODE void SmoothLevel::begin(const FrameSlots& slots, const FrameMoment& moment,
                                           std::optional<double> since_prepared_s) RELIEVO_RT {
-  // The wide level is not prepared where the broad one alone counts.
-  const bool wide_prepared = !has_broad_ || !broad_.preparedStraight();
-  wide_.begin(slots, moment, wide_prepared ? since_prepared_s : std::nullopt);
-  if (has_broad_) broad_.begin(slots, moment, since_prepared_s);
+  for (std::size_t k = narrowest_; k <= widest_; ++k) {
+    levels_[k].evenness.begin(slots, moment);
+    levels_[k].surface.begin(slots, moment, levels_[k].prepared ? since_prepared_s : std::nullopt);
+  }
 }
 
-RELIEVO_TICK_CODE SurfacePoint SmoothLevel::at(double x_mm, double y_mm) RELIEVO_RT {
-  if (!has_broad_) return wide_.at(x_mm, y_mm);
-  const auto straight = broad_.straightness(x_mm, y_mm);
-  if (straight.all) return broad_.at(x_mm, y_mm);
-  const SurfacePoint w = wide_.at(x_mm, y_mm);
-  if (straight.share.z <= 1 - kMostBent) return w;
-  const SurfacePoint b = broad_.at(x_mm, y_mm), t = shareOf(straight.share);
-  const double d = b.z - w.z, dx = b.zx - w.zx, dy = b.zy - w.zy;
-  return {w.z + t.z * d,
-          w.zx + t.z * dx + t.zx * d,
-          w.zy + t.z * dy + t.zy * d,
-          w.zxx + t.z * (b.zxx - w.zxx) + 2 * t.zx * dx + t.zxx * d,
-          w.zxy + t.z * (b.zxy - w.zxy) + t.zx * dy + t.zy * dx + t.zxy * d,
-          w.zyy + t.z * (b.zyy - w.zyy) + 2 * t.zy * dy + t.zyy * d};
+RELIEVO_TICK_CODE bool SmoothLevel::counts(Level& level, double x_mm, double y_mm) RELIEVO_RT {
+  if (level.absent) return false;
+  level.evenness.judge(level.surface.grid(), x_mm, y_mm);
+  return !level.evenness.none();
 }
 
-RELIEVO_TICK_CODE double SmoothLevel::height(double x_mm, double y_mm) RELIEVO_RT {
-  if (!has_broad_) return wide_.height(x_mm, y_mm);
-  const auto straight = broad_.straightness(x_mm, y_mm);
-  if (straight.all) return broad_.height(x_mm, y_mm);
-  const double w = wide_.height(x_mm, y_mm);
-  if (straight.share.z <= 1 - kMostBent) return w;
-  return w + shareOf(straight.share).z * (broad_.height(x_mm, y_mm) - w);
+RELIEVO_TICK_CODE SurfacePoint SmoothLevel::at(std::size_t k, double x_mm, double y_mm) RELIEVO_RT {
+  Level& level = levels_[k];
+  if (k == narrowest_) return level.surface.at(x_mm, y_mm);
+  if (!counts(level, x_mm, y_mm)) return at(k - 1, x_mm, y_mm);
+  const SurfacePoint v = level.surface.at(x_mm, y_mm);
+  if (level.evenness.all()) return v;
+  return blended(at(k - 1, x_mm, y_mm), v, level.evenness.at(level.surface.grid(), x_mm, y_mm));
 }
 
+RELIEVO_TICK_CODE double SmoothLevel::height(std::size_t k, double x_mm, double y_mm) RELIEVO_RT {
+  Level& level = levels_[k];
+  if (k == narrowest_) return level.surface.height(x_mm, y_mm);
+  if (!counts(level, x_mm, y_mm)) return height(k - 1, x_mm, y_mm);
+  const double v = level.surface.height(x_mm, y_mm);
+  if (level.evenness.all()) return v;
+  const double f = height(k - 1, x_mm, y_mm);
+  return f + level.evenness.at(level.surface.grid(), x_mm, y_mm).z * (v - f);
+}
+
+// A level that was absent is read in a few ticks, a frame in each, before it counts.
 void SmoothLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                           const FrameMoment& later, double step_s) RELIEVO_RT {
-  if (has_broad_) {
-    broad_.prepare(slots, x_mm, y_mm, next, later, step_s);
-    if (broad_.preparedStraight()) return;
+  constexpr int kBlocksAtOnce = 32;
+  for (Level& level : levels_) level.prepared = false;
+  for (std::size_t k = widest_;; --k) {
+    Level& level = levels_[k];
+    if (k > narrowest_) {
+      level.evenness.begin(slots, next);
+      level.evenness.judge(level.surface.grid(), x_mm, y_mm);
+      level.absent = level.evenness.none() ||
+                     (level.absent && !level.surface.readAllAhead(slots, x_mm, y_mm, next, kBlocksAtOnce));
+      if (level.absent) continue;
+    }
+    level.prepared = true;
+    level.surface.prepare(slots, x_mm, y_mm, next, later, step_s);
+    if (k == narrowest_ || level.evenness.all()) return;
   }
-  wide_.prepare(slots, x_mm, y_mm, next, later, step_s);
 }
 
 void SmoothLevel::readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT {
-  if (has_broad_ && !broad_.bent()) broad_.readAhead(slots, x_mm, y_mm, next);
-  if (!has_broad_ || !broad_.preparedStraight()) wide_.readAhead(slots, x_mm, y_mm, next);
+  for (Level& level : levels_) {
+    if (level.prepared) level.surface.readAhead(slots, x_mm, y_mm, next);
+  }
 }
 
 void SmoothLevel::prefetch() const RELIEVO_RT {
-  wide_.prefetch();
-  broad_.prefetch();
+  for (const Level& level : levels_) level.surface.prefetch();
 }
 
 }  // namespace relievo

@@ -2,23 +2,24 @@
 // The felt surface away from edges, smoothed as widely as the place allows.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "app/depth_window/felt_scale.h"
+#include "app/haptics/method/evenness.h"
 #include "app/haptics/method/surface_level.h"
 #include "platform/realtime.h"
 
 namespace relievo {
 
-// W = w + h (b - w): the wide level w follows every curve that a finger feels; the broad level b averages more of the
-// depth's steps and noise, and replaces w where it is straight (h = 1). h is a function of the straightness of b's
-// control points, a B-spline like the levels, so that W is as smooth as they are. It falls to 0 while a point that is
-// not straight still has little weight, since an edge or a hole behind that point must not be felt from so far away.
-// Where h is 0 or 1 all around, only one level counts, and only that one is read.
+// Up to three levels: the wide one, a narrower middle one for creases, and a broad one, which averages more of the
+// depth's steps and noise. Each wider level v replaces the surface f of those below it where its relief is even (h =
+// 1): S = f + h (v - f). h is a function of the evenness of v's control points (Evenness).
+// Where h is 0 or 1 all around, only one of the two counts. Where it is 0, v is read in the two frames that tell so.
 // A view of one moment, prepared in the tick before, like its levels.
 class SmoothLevel {
  public:
-  // Without a broad level if it is not wider than the wide one.
+  // Without a middle or broad level if it is not narrower or wider than the wide one.
   explicit SmoothLevel(const FeltScale& scale) noexcept;
   SmoothLevel(const SmoothLevel&) = delete;
   SmoothLevel& operator=(const SmoothLevel&) = delete;
@@ -26,8 +27,8 @@ class SmoothLevel {
   void setPicture(const HeightField& field) RELIEVO_RT;
   void forgetFrame(int slot) RELIEVO_RT;
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
-  [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
-  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
+  [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT { return at(widest_, x_mm, y_mm); }
+  [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT { return height(widest_, x_mm, y_mm); }
 
   // As SurfaceLevel's.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
@@ -37,14 +38,23 @@ class SmoothLevel {
 
   // The wide level's blocks are larger than those of `narrow`.
   [[nodiscard]] bool isWiderThan(const ControlGrid& narrow) const RELIEVO_RT;
-  [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
-    return wide_.grid().blocksRead() + broad_.grid().blocksRead();
-  }
+  [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT;
 
  private:
-  ControlGrid::StraightPoints straight_;  // of the broad level's points
-  SurfaceLevel wide_, broad_;
-  bool has_broad_;
+  static constexpr std::size_t kMiddle = 0, kWide = 1, kBroad = 2;
+  struct Level {
+    SurfaceLevel surface;
+    Evenness evenness;  // of the surface; not of the narrowest one
+    bool prepared = false;
+    bool absent = false;  // at this moment: nowhere even, or not read yet
+  };
+  [[nodiscard]] SurfacePoint at(std::size_t level, double x_mm, double y_mm) RELIEVO_RT;
+  [[nodiscard]] double height(std::size_t level, double x_mm, double y_mm) RELIEVO_RT;
+  // Of a level that has another one below it; false if that one alone counts.
+  [[nodiscard]] bool counts(Level& level, double x_mm, double y_mm) RELIEVO_RT;
+
+  std::array<Level, 3> levels_;
+  std::size_t narrowest_, widest_;
 };
 
 }  // namespace relievo

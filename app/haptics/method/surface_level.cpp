@@ -46,16 +46,14 @@ int below(double v) RELIEVO_RT {
 }  // namespace
 
 SurfaceLevel::SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-                           ControlGrid::StraightPoints* straight, double steady_mm) noexcept
+                           double steady_mm) noexcept
     : grid_(sigma_mm / kSigmaPerPitch, most_samples,
             curvature == Curvature::Flattened ? 0
             : space == SpaceLaw::Quadratic    ? 1.F / 6
-                                              : 5.F / 24,
-            straight),
+                                              : 5.F / 24),
       time_(time),
       steady_mm_(static_cast<float>(steady_mm)),
-      cubic_(space != SpaceLaw::Quadratic),
-      tells_straight_(straight != nullptr) {}
+      cubic_(space != SpaceLaw::Quadratic) {}
 
 // Frames that come together, after a late picture, a seek or a cut, are read one in a tick, and what the law needs
 // besides bit by bit (`readLacking`): until then the surface in time is that of fewer frames.
@@ -138,31 +136,11 @@ RELIEVO_TICK_CODE const Patch& SurfaceLevel::patchAt(const Cell& cell) RELIEVO_R
     is_weighed_ = true;
     blend(*slots_, weighed_, cell, patch_.points);
     addWhereUnsteady(weighed_, cell, patch_.points);
-    if (tells_straight_) readStraightness(cell, straight_);
   }
   patch_.i = cell.i;
   patch_.j = cell.j;
   patch_.valid = true;
   return patch_.points;
-}
-
-void SurfaceLevel::readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT {
-  grid_.straightness(cell.i, cell.j, weighed_.frames, out.points);
-  constexpr float kRounding = 1e-5F;  // of the frames' weights, whose sum is 1
-  out.all = true;
-  for (const Float4& row : out.points) {
-    for (int i = 0; i < 4; ++i) out.all = out.all && row[i] >= 1 - kRounding;
-  }
-}
-
-RELIEVO_TICK_CODE SurfaceLevel::Straightness SurfaceLevel::straightness(double x_mm, double y_mm) RELIEVO_RT {
-  if (bent_) return {};
-  const Cell cell = cellOf(x_mm, y_mm);
-  const bool prepared = since_prepared_s_ && cell.i == prepared_i_ && cell.j == prepared_j_;
-  if (!prepared) static_cast<void>(patchAt(cell));
-  const StraightPatch& straight = prepared ? prepared_straight_ : straight_;
-  if (straight.all) return {.all = true, .share = {}};
-  return {.all = false, .share = pointOn(straight.points, cell)};
 }
 
 SurfacePoint SurfaceLevel::atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT {
@@ -211,11 +189,6 @@ RELIEVO_TICK_CODE SurfacePoint SurfaceLevel::pointOn(const Patch& p, const Cell&
 void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                            const FrameMoment& later, double step_s) RELIEVO_RT {
   const Cell cell = cellOf(x_mm, y_mm);
-  if (tells_straight_) {
-    bent_ = staysBent(slots, next, cell);
-    prepared_straight_.all = false;
-    if (bent_) return;  // no height is asked for
-  }
   prepared_i_ = cell.i;
   prepared_j_ = cell.j;
   weigh(slots, next, later, weighed_);
@@ -241,7 +214,6 @@ void SurfaceLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, co
   if (adapted) addWhereUnsteady(added, prepared_);
   if (!plain) addWhereUnsteady(weighed_, cell, prepared_);
   if (weighed_.law != time_) readLacking(slots, next, cell);
-  if (tells_straight_) readStraightness(cell, prepared_straight_);
 }
 
 // Beside holes, and carried forward in time.
@@ -254,13 +226,11 @@ void SurfaceLevel::blendBoth(const FrameSlots& slots, const FrameMoment& later, 
   blend(slots, weighed_, cell, prepared_);
 }
 
-// A frame in which no point is straight leaves less than 1 - kCounts of straightness, which is none to SmoothLevel.
-bool SurfaceLevel::staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT {
-  constexpr float kCounts = 0.1F;
-  constexpr int kBlocksAtOnce = 32;  // a frame's
-  weighed_.weigh(time_, slots, moment, moment);
-  if (grid_.isBent(cell.i, cell.j, weighed_.frames, kCounts)) return true;
-  return bent_ && !grid_.readAhead(cell.i, cell.j, weighed_.frames, kBlocksAtOnce);
+bool SurfaceLevel::readAllAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
+                                int most) RELIEVO_RT {
+  const Cell cell = cellOf(x_mm, y_mm);
+  weighed_.weigh(time_, slots, next, next);
+  return grid_.readAhead(cell.i, cell.j, weighed_.frames, most);
 }
 
 // A few blocks of the first frame that the law needs and of which none have been read.

@@ -9,7 +9,6 @@
 #include "app/depth_window/felt_scale.h"
 #include "app/haptics/method/control_grid.h"
 #include "app/haptics/method/frame_weights.h"
-#include "app/haptics/method/weighed_frames.h"
 #include "platform/realtime.h"
 
 namespace relievo {
@@ -26,9 +25,8 @@ class SurfaceLevel {
  public:
   // Whether the surface keeps the depth's curvature (ControlGrid), or takes the means of blocks as they are.
   enum class Curvature : std::uint8_t { Flattened, Kept };
-  // `straight`: of ControlGrid; null if `straightness` is not asked for.
   SurfaceLevel(double sigma_mm, int most_samples, SpaceLaw space, TimeLaw time, Curvature curvature,
-               ControlGrid::StraightPoints* straight = nullptr, double steady_mm = 0) noexcept;
+               double steady_mm) noexcept;
 
   [[nodiscard]] ControlGrid& grid() RELIEVO_RT { return grid_; }
   [[nodiscard]] const ControlGrid& grid() const RELIEVO_RT { return grid_; }
@@ -38,17 +36,6 @@ class SurfaceLevel {
   void begin(const FrameSlots& slots, const FrameMoment& moment, std::optional<double> since_prepared_s) RELIEVO_RT;
   [[nodiscard]] SurfacePoint at(double x_mm, double y_mm) RELIEVO_RT;
   [[nodiscard]] double height(double x_mm, double y_mm) RELIEVO_RT;
-  // How straight the surface is around a place, 0 .. 1, as continuous as its height; 0 where `bent`.
-  struct Straightness {
-    bool all = false;
-    SurfacePoint share;  // valid unless all of it is straight
-  };
-  [[nodiscard]] Straightness straightness(double x_mm, double y_mm) RELIEVO_RT;
-  // True if the surface is straight all around the place and moment given to `prepare`.
-  [[nodiscard]] bool preparedStraight() const RELIEVO_RT { return prepared_straight_.all; }
-  // True if no point was straight around the place given to `prepare`, in a frame that counts. The other frames are not
-  // read then; where the surface becomes straight, they are read first, in a few ticks.
-  [[nodiscard]] bool bent() const RELIEVO_RT { return bent_; }
   // The height on a single frame: the present one (0) or the next (1).
   [[nodiscard]] SurfacePoint atFrame(std::size_t which, double x_mm, double y_mm) RELIEVO_RT;
 
@@ -56,6 +43,8 @@ class SurfaceLevel {
   // `later`, `step_s` after it.
   void prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, const FrameMoment& later,
                double step_s) RELIEVO_RT;
+  // Reads at most so many blocks around a place of all frames that have a weight; true if all of them have been read.
+  bool readAllAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next, int most) RELIEVO_RT;
   // Reads a little of the frame that follows those that have a weight at `next`, so that its points need not all be
   // read in the tick in which it gets one.
   void readAhead(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next) RELIEVO_RT;
@@ -75,13 +64,7 @@ class SurfaceLevel {
     bool valid = false;  // at this moment
     [[nodiscard]] bool isOf(const Cell& cell) const RELIEVO_RT { return valid && cell.i == i && cell.j == j; }
   };
-  // The points' straightness.
-  struct StraightPatch {
-    Patch points{};
-    bool all = false;  // of the points are straight
-  };
   [[nodiscard]] const Patch& patchAt(const Cell& cell) RELIEVO_RT;
-  void readStraightness(const Cell& cell, StraightPatch& out) const RELIEVO_RT;
   [[nodiscard]] SurfacePoint pointOn(const Patch& patch, const Cell& cell) const RELIEVO_RT;
   void weigh(const FrameSlots& slots, const FrameMoment& moment, const FrameMoment& later,
              WeighedFrames& out) const RELIEVO_RT;
@@ -91,12 +74,11 @@ class SurfaceLevel {
   void addWhereUnsteady(const Patch& added, Patch& out) const RELIEVO_RT;
   void blendBoth(const FrameSlots& slots, const FrameMoment& later, const Cell& cell, Patch& then) RELIEVO_RT;
   void readLacking(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
-  [[nodiscard]] bool staysBent(const FrameSlots& slots, const FrameMoment& moment, const Cell& cell) RELIEVO_RT;
 
   ControlGrid grid_;
   TimeLaw time_;
   float steady_mm_;
-  bool cubic_, tells_straight_, bent_ = false;
+  bool cubic_;
 
   const FrameSlots* slots_ = nullptr;
   FrameMoment moment_;
@@ -105,10 +87,7 @@ class SurfaceLevel {
   CellPatch patch_;
   std::array<CellPatch, 2> frame_patch_;  // of the present frame and of the next one
 
-  StraightPatch straight_;  // with `patch_`
-
   Patch prepared_{}, prepared_rate_{};  // mm, mm/s
-  StraightPatch prepared_straight_;
   int prepared_i_ = 0, prepared_j_ = 0;
   std::optional<float> since_prepared_s_;
 };

@@ -147,14 +147,25 @@ TEST(TouchPlan, WhatIsSmoothAlreadyNeedsNoBroadLevel) {
   EXPECT_EQ(planFor(16, 0, true).scale.broad_mm, 0);
   const TouchPlan noise = planFor(8, 0.4, true, 0);
   const FeltScale coarse = planFor(8, 0, true, 0).scale, noisy = noise.scale;
-  const auto ball = [](const FeltScale& s) { return std::pow(s.broad_mm / kSigmaPerPitch, 2) / 150; };
   EXPECT_EQ(coarse.broad_mm, 2 * coarse.wide_mm);
-  EXPECT_NEAR(coarse.straight_mm, ball(coarse) + 40.0 / 255 / 2, 1e-9);
-  const double across = noisy.broad_mm / kSigmaPerPitch * 720 / 160;  // samples of a block, of which six rows are read
   EXPECT_EQ(noisy.broad_mm, 2.5 * noisy.wide_mm);
-  EXPECT_NEAR(noisy.straight_mm, ball(noisy) + 3 * std::sqrt(6) * noise.measure.noise_mm / std::sqrt(6 * across), 1e-3)
+  const auto ball = [](const FeltScale& scale) { return std::pow(scale.broad_mm / kSigmaPerPitch, 2) / 150; };
+  EXPECT_NEAR(coarse.broad_even_mm, ball(coarse) + 40.0 / 255 / 2, 1e-9);
+  const double across = noisy.broad_mm / kSigmaPerPitch * 720 / 160;  // samples of a block, of which six rows are read
+  EXPECT_NEAR(noisy.broad_even_mm, ball(noisy) + 3 * std::sqrt(6) * noise.measure.noise_mm / std::sqrt(6 * across),
+              1e-3)
       << "three deviations of what a block of one frame leaves of the noise: frames are judged one by one";
-  EXPECT_LT(noisy.straight_mm, 0.8) << "the bend of a ball of 45 mm";
+  EXPECT_LT(noisy.broad_even_mm, 0.8) << "the bend of a ball of 45 mm";
+}
+
+// Six tenths as wide, the middle level has 1/.6 of the steps' error n: n (n/.6 - n).
+TEST(TouchPlan, WhereALevelWouldFlattenMoreThanItSavesANarrowerOneCounts) {
+  const TouchPlan plan = planFor(8, 0, true, 0);
+  const FeltScale& s = plan.scale;
+  const double of_steps = 0.5 * 40.0 / 255 / 5.06;  // the slope's error under a width of 1 mm
+  EXPECT_NEAR(s.middle_mm, 0.6 * s.wide_mm, 1e-9);
+  EXPECT_NEAR(s.wide_even_mm, 2 * 9 / kSigmaPerPitch * of_steps * std::sqrt(1 / 0.6 - 1), 1e-6);
+  EXPECT_EQ(planFor(16, 0, true).scale.middle_mm, 0) << "as fine as it is, the wide level is narrow";
 }
 
 // Waves of half a step on a slope bend by less than a step, and are lost on the broad level; under noise too.
