@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::size_t kMostExamined = 1 << 16;  // samples of the first picture
 constexpr double kOutliers = 0.002;
-constexpr double kLeastBelow = 0.02;     // of the values of a film that has some on both sides of 0
+constexpr double kLeastBelow = 0.02;      // of the values of a film that has some on both sides of 0
+constexpr float kBesideZero = 1.0F / 16;  // of their range, in which there are some too, on both sides
+constexpr double kLeastBesideZero = 0.005;
 constexpr std::size_t kConstant = 4;     // the lowest value stands for "nothing there" if one in so many below 0 has it
 constexpr double kFirstOfLifted = 1024;  // the code of its lowest value: later pictures may reach lower
 constexpr double kAloneFactor = 10;      // the value of "nothing there" is so many times the next smaller one
@@ -50,45 +52,52 @@ double highestOf(const std::vector<float>& sorted) {
   return static_cast<double>(sorted[last]);
 }
 
-// Whether a share of the values is below 0. A constant below 0 is a way to say "nothing there".
-bool areOnBothSides(const Examined& values) {
+// Takes out the highest value if it lies alone, far beyond the others. Returns what is "nothing there" from there on.
+float cutAlone(std::vector<float>& sorted) {
+  if (sorted.empty()) return FloatCodes::kNothingThere;
+  const auto top = std::lower_bound(sorted.begin(), sorted.end(), kSame * sorted.back());
+  if (top == sorted.begin() || *top < static_cast<float>(kAloneFactor) * *(top - 1)) return FloatCodes::kNothingThere;
+  const float from = static_cast<float>(std::sqrt(kAloneFactor)) * *(top - 1);
+  sorted.erase(top, sorted.end());
+  return from;
+}
+
+// Whether the values go through 0. A constant below 0 is a way to say "nothing there", and distances that are wrong or
+// behind the camera leave a gap between those below 0 and the nearest one above.
+bool goThroughZero(const Examined& values) {
   const auto& [positive, negative] = values;
   if (positive.empty() || negative.empty()) return false;
-  const auto lowest =
-      static_cast<std::size_t>(negative.end() - std::lower_bound(negative.begin(), negative.end(), negative.back()));
-  const std::size_t all = positive.size() + negative.size();
-  return kConstant * lowest < negative.size() &&
-         static_cast<double>(negative.size()) >= kLeastBelow * static_cast<double>(all);
+  const auto constant = negative.end() - std::lower_bound(negative.begin(), negative.end(), negative.back());
+  const auto all = static_cast<double>(positive.size() + negative.size());
+  const float beside = kBesideZero * static_cast<float>(highestOf(positive) + highestOf(negative));
+  const auto areBeside = [&](const std::vector<float>& sorted) {
+    const auto count = std::upper_bound(sorted.begin(), sorted.end(), beside) - sorted.begin();
+    return static_cast<double>(count) >= kLeastBesideZero * all;
+  };
+  return kConstant * static_cast<std::size_t>(constant) < negative.size() &&
+         static_cast<double>(negative.size()) >= kLeastBelow * all && areBeside(positive) && areBeside(negative);
 }
 
 }  // namespace
 
 std::optional<FloatCodes> FloatCodes::chosenFor(const std::function<float(std::size_t)>& sample, std::size_t count) {
-  const Examined all = examined(sample, count);
+  Examined all = examined(sample, count);
+  const float from = cutAlone(all.positive), below = cutAlone(all.negative);
   const bool turned = all.negative.size() > 4 * all.positive.size() && all.negative.front() != all.negative.back();
-  if (!turned && areOnBothSides(all)) {
+  if (!turned && goThroughZero(all)) {
     const double lowest = -highestOf(all.negative), highest = highestOf(all.positive);
     const double step = roundUp((highest - lowest) / (kCodesInUse - kFirstOfLifted));
-    return FloatCodes(step, kNothingThere, lowest - kFirstOfLifted * step);
+    return FloatCodes(step, {-below, from}, lowest - kFirstOfLifted * step);
   }
-  std::vector<float> values = turned ? all.negative : all.positive;
-  float nothing_from = kNothingThere;
-  if (!values.empty()) {
-    const auto top = std::lower_bound(values.begin(), values.end(), kSame * values.back());
-    if (top != values.begin() && *top >= static_cast<float>(kAloneFactor) * *(top - 1)) {
-      nothing_from = static_cast<float>(std::sqrt(kAloneFactor)) * *(top - 1);
-      values.erase(top, values.end());
-    }
-  }
+  const std::vector<float>& values = turned ? all.negative : all.positive;
   if (values.empty()) return std::nullopt;
   const double largest = std::max(highestOf(values), 1e-30);
-  return FloatCodes((turned ? -1 : 1) * roundUp(largest / kCodesInUse), nothing_from);
+  return FloatCodes((turned ? -1 : 1) * roundUp(largest / kCodesInUse), {0, turned ? below : from});
 }
 
 std::optional<double> FloatCodes::placeOf(float value) const noexcept {
-  const bool lifted = value_at_zero_ != 0;
   const float positive = value_per_code_ < 0 ? -value : value;
-  if (!(positive > (lifted ? -kNothingThere : 0) && positive < nothing_from_)) return std::nullopt;
+  if (!(positive > valid_.above && positive < valid_.below)) return std::nullopt;
   return (static_cast<double>(positive) - value_at_zero_) / std::abs(value_per_code_);
 }
 

@@ -18,6 +18,9 @@
 namespace relievo {
 namespace {
 
+constexpr Error kNoDistances{ErrorCode::InvalidArgument, 0,
+                             "its numbers go through 0, so they are no distances; leave unit= out"};
+
 // What was stated about the codes themselves; it overrides what names and pictures show.
 CalibrationLayers saidLayers(const DepthClues& clues) {
   CalibrationLayers layers;
@@ -217,6 +220,7 @@ DepthReading readPictures(const DepthClues& clues, const KnownKind* kind, const 
     read = readInFront(clues, kind, look, countOf(look, later), layers);
   }
   if (clues.live && read.kind == nullptr) {
+    read.doubt.clear();
     read.settings.erase("near");
     read.settings.erase("far");
   }
@@ -254,6 +258,7 @@ bool isReachSeen(const CalibrationChoice& choice) {
 Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind, const Frame& look,
                                  std::span<const Frame> later) {
   CalibrationLayers layers = saidLayers(clues);
+  if (look.value_at_zero != 0 && says(layers, {"unit"})) return std::unexpected(kNoDistances);
   const HueSpan span = addKind(clues, kind, layers);
   fitHoles(layers.stated_kind, look.components[0].bits);
   const bool film = clues.code == DepthCode::Luma && look.model == ColorModel::Yuv;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/reading/float_reading.h"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -155,12 +153,20 @@ double nearerBelowAsDistances(const Frame& depth, const CodeCount& count) {
   return nearerBelow(depth, distances);
 }
 
+// AirSim's "img_CAR_CAMERA_KIND_TIME.pfm": kinds 1 and 2 are distances, 4 is a disparity.
+std::optional<bool> kindOfAirSim(std::string_view name) {
+  const std::size_t time = name.rfind('_');
+  if (!name.starts_with("img_") || !name.ends_with(".pfm") || time < 2 || name[time - 2] != '_') return std::nullopt;
+  const std::string_view digits = name.substr(time + 1, name.size() - time - 1 - std::string_view(".pfm").size());
+  if (digits.empty() || digits.find_first_not_of("0123456789") != digits.npos) return std::nullopt;
+  const char kind = name[time - 1];
+  return kind == '4' ? std::optional(true) : kind == '1' || kind == '2' ? std::optional(false) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<bool> namesDisparity(std::string_view path) {
   const std::string lower = lowerCase(path);
-  // AirSim numbers the kinds of its pictures: 1 and 2 are distances.
-  if (::fnmatch("*img_*_[12]_*[0-9].pfm", lower.c_str(), 0) == 0) return false;
   std::string_view rest = lower;
   const auto names = [](std::string_view name, auto words) {
     return std::any_of(words.begin(), words.end(), [&](const char* word) { return name.find(word) != name.npos; });
@@ -172,7 +178,7 @@ std::optional<bool> namesDisparity(std::string_view path) {
     if (names(name, std::array{"disp", "parallax", "inverse_depth", "invdepth", "inv_depth"})) return true;
     if (names(name, std::array{"depth", "dist", "zbuf"})) return false;
   }
-  return std::nullopt;
+  return kindOfAirSim(lower.substr(lower.rfind('/') + 1));
 }
 
 bool looksLikeDisparity(const Frame& depth, const CodeCount& count) {
@@ -234,7 +240,10 @@ DepthReading readFloats(const Frame& depth, const CodeCount& count, bool dispari
   const auto unit = unitIn(said);
   const bool told = !unit && (has(said, "law") || has(said, "polarity"));
   if (reach.zero != 0 && !told && !unit) return lifted(reach);
-  return told || (disparity && !unit) ? disparities(reach, (1u << count.bits()) - 1, said) : distances(reach, unit);
+  if (told || (disparity && !unit)) return disparities(reach, (1u << count.bits()) - 1, said);
+  DepthReading reading = distances(reach, unit);
+  if (has(said, "near") || has(said, "far")) reading.doubt.clear();
+  return reading;
 }
 
 void scaleToCodes(CalibrationLayers& said, const Frame& depth) {

@@ -55,6 +55,17 @@ TEST(NumbersBelowZero, AreLiftedWhereOthersAreAbove) {
   }
 }
 
+TEST(NumbersBelowZero, AreNotLiftedByWhatSaysNothingThere) {
+  const Frame frame = readOf(npyOf<float>("<f4", [](int c, int r) {
+    return c == 0 ? -9999.0 : c == 19 ? 32767.0 : 5.0 * (c - 9) + 0.1 * r;
+  }));
+  ASSERT_NE(frame.value_at_zero, 0);
+  EXPECT_LT(frame.value_per_code, 0.01);
+  EXPECT_EQ(codeIn(frame, 0, 3), 0U);
+  EXPECT_EQ(codeIn(frame, 19, 3), 0U);
+  EXPECT_NEAR(frame.value_at_zero + frame.value_per_code * codeIn(frame, 1, 3), -39.7, 0.01);
+}
+
 TEST(NumbersBelowZero, ThatSayNothingThereAreHoles) {
   const Frame constant = readOf(npyOf<float>("<f4", [](int c, int r) { return c < 10 ? -1.0 : r + 1; }));
   EXPECT_EQ(constant.value_at_zero, 0);
@@ -67,6 +78,10 @@ TEST(NumbersBelowZero, ThatSayNothingThereAreHoles) {
   const Frame turned = readOf(npyOf<float>("<f4", [](int c, int r) { return -10 - c - r; }));
   EXPECT_EQ(turned.value_at_zero, 0);
   EXPECT_LT(turned.value_per_code, 0);
+  // Wrong distances, far from 0.
+  const Frame wrong = readOf(npyOf<float>("<f4", [](int c, int r) { return c < 2 ? -3.0 - r : 2.0 + c + r; }));
+  EXPECT_EQ(wrong.value_at_zero, 0);
+  EXPECT_EQ(codeIn(wrong, 1, 3), 0U);
   // A few that a filter has left.
   const Frame few = readOf(npyOf<float>("<f4", [](int c, int r) { return c == 3 && r < 3 ? -1.0 - r : 5.0; }));
   EXPECT_EQ(few.value_at_zero, 0);

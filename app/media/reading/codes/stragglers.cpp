@@ -21,7 +21,7 @@ std::string stragglersLine(const DistanceReach& reach, double unit_mm, double ne
   if (reach.farthest == reach.high) return "";
   return print(
       "%.1f %% of the depth lies beyond %.4g m, far behind all else, and is felt at the far end; if it "
-      "matters: --calibration near=%.0f,far=%.0f",
+      "matters: --calibration near=%.6g,far=%.6g",
       100 * reach.beyond, 1e-3 * unit_mm * reach.high, near_mm, far_mm);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/known_kind.h"
@@ -85,14 +86,16 @@ TEST(FarBackground, IsLeftInWhatIsNoDistance) {
 }
 
 // A few distances that a sensor returns through a window, at rims, or wrong: each `one_in` of the scene's.
-DepthMeaning withFarOnes(int one_in, double codes_per_mm, double value_per_code) {
+DepthMeaning withFarOnes(int one_in, double codes_per_mm, double value_per_code, CalibrationSettings said = {}) {
   Frame frame = test::makeGrayFrame(kCols, kRows, 16, {}, [&, i = 0](int c, int r) mutable {
     const double mm = distanceMm(c, r);
     const double far = ++i % one_in == 0 ? 9'000 + i % 3'000 : 0;
     return std::lround(codes_per_mm * (mm == 0 ? 0 : std::max(mm, far)));
   });
   frame.value_per_code = value_per_code;
-  return meaningOf(frame, value_per_code == 0 ? DepthClues{} : DepthClues{.codec = "npy", .path = "depth.npy"});
+  DepthClues clues{.command_line = std::move(said)};
+  if (value_per_code != 0) clues.codec = "npy", clues.path = "depth.npy";
+  return meaningOf(frame, clues);
 }
 
 TEST(FewFarDistances, DoNotFlattenTheSceneBeforeThem) {
@@ -102,6 +105,9 @@ TEST(FewFarDistances, DoNotFlattenTheSceneBeforeThem) {
     EXPECT_NEAR(few.calibration.calibration.far_mm, 1.1 * 1'990, 20);
     EXPECT_THAT(few.reading.doubts,
                 Contains(AllOf(HasSubstr("0.7 % of the depth lies beyond 1.9"), HasSubstr("near="))));
+    const DepthMeaning said = withFarOnes(150, 1, value_per_code, {{"near", "900"}, {"far", "12000"}});
+    EXPECT_EQ(said.calibration.calibration.far_mm, 12'000);
+    EXPECT_THAT(said.reading.doubts, IsEmpty());
     const DepthMeaning part = withFarOnes(50, 1, value_per_code);  // a part of the scene
     EXPECT_GT(part.calibration.calibration.far_mm, 10'000);
     EXPECT_THAT(part.reading.doubts, IsEmpty());

@@ -258,6 +258,10 @@ TEST(FloatReading, NamesTellWhatTheNumbersAre) {
   EXPECT_EQ(namesDisparity("disp0.npy"), true);
   EXPECT_EQ(namesDisparity("disp/depth_map_7.pfm"), false) << "the file's own name first";
   EXPECT_EQ(namesDisparity("disp/a/b/c.tif"), std::nullopt) << "the last three names only";
+  EXPECT_EQ(namesDisparity("a/img_Car_0_2_1534.pfm"), false) << "AirSim's";
+  EXPECT_EQ(namesDisparity("a/img__1_4_1534.pfm"), true);
+  EXPECT_EQ(namesDisparity("a/img__1_3_1534.pfm"), std::nullopt);
+  EXPECT_EQ(namesDisparity("img_data/take_2_left/disp_0001.pfm"), true);
 }
 
 TEST(FloatReading, AnExrIsDistancesUnlessItsNameSaysDisparity) {

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <limits>
 
+#include "app/media/reading/depth_meaning.h"
 #include "tests/support/film/clip_maker.h"
+#include "tests/support/film/depth_frames.h"
 #include "tests/support/film/opened_film.h"
 
 namespace relievo {
@@ -58,6 +60,17 @@ TEST(SignedNumbers, AreNearWhereTheyAreLarge) {
   writePfm(folder / "sun.pfm", [](double m) { return m - 2.5; });
   EXPECT_THAT(test::openFilm({.url = folder / "sun.pfm"}).info.reading.doubts,
               Contains(HasSubstr("polarity=near-low")));
+}
+
+TEST(SignedNumbers, AreNoDistancesInAnyUnit) {
+  Frame frame = test::makeGrayFrame(kCols, kRows, 16, {}, [](int c, int r) { return 1024 + 100 * r + c; });
+  frame.value_per_code = 0.001;
+  frame.value_at_zero = -2.5;
+  DepthClues clues{.codec = "pfm", .path = "moon.pfm"};
+  clues.command_line = {{"unit", "1000"}};
+  const auto meaning = readMeaning(clues, nullptr, frame);
+  ASSERT_FALSE(meaning);
+  EXPECT_THAT(meaning.error().message, HasSubstr("no distances"));
 }
 
 }  // namespace
