@@ -152,7 +152,8 @@ TEST_F(Gstreamer, ASeekForgetsWhatWasInsideAndGoesOnExactly) {
 TEST_F(Gstreamer, ASeekIntoAnOpenGroupDamagesNothing) {
   const Film film(makeClip("open.mkv", movingClip("libx265")));
   const auto decoder = open(film, "avdec_h265");
-  expectASeekIntoAnOpenGroupToDamageNothing(*decoder, film);
+  // GStreamer 1.26's element takes the second picture for the "ghost" of one that cannot be decoded.
+  expectASeekIntoAnOpenGroupToDamageNothing(*decoder, film, 1);
 }
 
 TEST_F(Gstreamer, DrainsAgainAndAgain) {

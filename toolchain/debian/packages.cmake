@@ -33,7 +33,7 @@ force-feedback device feels the shapes in the picture while they move. This is
 the player of a set-top box, with the service that starts it.")
 set(CPACK_DEBIAN_RELIEVO_PACKAGE_DEPENDS "systemd | systemd-standalone-sysusers")
 set(CPACK_DEBIAN_RELIEVO_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
-set(CPACK_DEBIAN_RELIEVO_PACKAGE_SUGGESTS "relievo-author, fonts-noto-cjk")
+set(CPACK_DEBIAN_RELIEVO_PACKAGE_SUGGESTS "relievo-author, fonts-noto-cjk, xfonts-base | zenity")  # SDL's message box
 set(CPACK_DEBIAN_RELIEVO_PACKAGE_CONTROL_EXTRA
     debian/relievo/conffiles debian/relievo/postinst debian/relievo/prerm debian/relievo/postrm)
 list(TRANSFORM CPACK_DEBIAN_RELIEVO_PACKAGE_CONTROL_EXTRA PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)

@@ -213,7 +213,9 @@ TEST(FfmpegSource, CommentsAtTheEndOfAGifAreReadOnce) {
   ASSERT_TRUE(source->open(folder / "a.gif").has_value());
   const std::uint64_t before = bytesRead();
   if (before == 0) GTEST_SKIP() << "the system does not tell how much a process reads";
-  EXPECT_EQ(readAll(*source).size(), 10U);
+  const std::size_t pictures = readAll(*source).size();
+  EXPECT_GE(pictures, 10U);
+  EXPECT_LE(pictures, 11U) << "FFmpeg 7.1 hands over the comments behind the last picture, too";
   EXPECT_EQ(source->missing(), Duration(0));
   EXPECT_LT(bytesRead() - before, 5 * std::filesystem::file_size(folder / "a.gif"));
 }
