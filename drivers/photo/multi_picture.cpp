@@ -25,7 +25,7 @@ std::vector<ListedPicture> picturesOf(const Numbers& index, std::size_t index_be
       const std::size_t entry = at + kEntryBytes * k;
       const std::size_t offset = index.at(entry + 8, 4);  // from the index; 0 for the file's first picture
       const std::size_t begin = offset == 0 ? 0 : index_begin + offset, length = index.at(entry + 4, 4);
-      if (begin > jpeg.size() || length > jpeg.size() - begin) break;
+      if (begin > jpeg.size() || length > jpeg.size() - begin) continue;
       pictures.push_back({index.at(entry, 4) & 0xffffff, jpeg.subspan(begin, length)});
     }
     break;

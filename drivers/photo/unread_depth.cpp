@@ -16,8 +16,7 @@ constexpr const char* kSamsung =
     "depth.tif (or -SingleShotDepthMapTiff), and give --depth depth.tif";
 constexpr const char* kHuawei =
     "it holds the depth of a Huawei phone, in a form that is not read: the gray picture behind the mark edof; give "
-    "that "
-    "with --depth";
+    "that with --depth";
 
 constexpr const char* kLeia =
     "it is a photo of Leia's (LIF), whose depth is in a form that is not read; export it as a picture with its depth "

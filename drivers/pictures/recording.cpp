@@ -157,12 +157,14 @@ bool isCount(const Series& series) {
 // Depth of a slower camera, each series counted from the same number on without a gap: a depth picture is of every so
 // many colour pictures. Depth that ends early may look the same.
 void Timing::spreadSlowDepth() {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kFewest = 4, kMostTimes = 10;
   if (kind != NameKind::Numbers || depth.size() < kFewest || 2 * depth.size() > color.size()) return;
   if (!isCount(color) || !isCount(depth) || color.front().value != depth.front().value) return;
   const std::size_t times = (color.size() + depth.size() / 2) / depth.size();
   const std::size_t whole = times * depth.size();
-  const bool fits = std::max(whole, color.size()) - std::min(whole, color.size()) < times;
+  // Counts that divide by chance do so for few depth pictures.
+  const bool fits = std::max(whole, color.size()) - std::min(whole, color.size()) < times && times <= kMostTimes &&
+                    depth.size() >= kFewest * times;
   notes.push_back(
       fits ? print(
                  "%zu depth pictures for %zu of colour, counted alike: one for every %zu is assumed; if the depth ends "
@@ -237,7 +239,10 @@ Timing timingOf(const FoundPictures& found) {
   timing.color = inOrder(color.values);
   timing.depth = inOrder(depth.values);
   timing.align(found, depth.kind);
-  if (!found.views) timing.spreadSlowDepth(), timing.rankFarNumbers();
+  if (!found.views) {
+    timing.spreadSlowDepth();
+    timing.rankFarNumbers();
+  }
   return timing;
 }
 
@@ -274,8 +279,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   if (counted && !frames_per_s && leading.size() > 1) {
     recording.notes.push_back(
         photos ? print("the file names do not count the pictures, so these are photos: each is shown for %.0f s; give "
-                       "one of "
-                       "them to play it alone, --fps F for a film",
+                       "one of them to play it alone, --fps F for a film",
                        1 / rate)
                : print("the file names give no times: %.0f pictures a second assumed; --fps F changes that", rate));
   }

@@ -129,7 +129,7 @@ bool isBetter(const std::string& a, const std::string& b) {
 }  // namespace
 
 Role roleOf(std::string_view name) {
-  if (name == "D" || name == "d" || name == "Z" || name == "z") return Role::Depth;  // a folder
+  if (name == "D") return Role::Depth;  // a folder; others of one letter are takes, or slices
   const Role role = roleOfWords(wordsOf(name));
   const char letter = matterportLetter(name);
   if (role == Role::Other || role == Role::Depth) return role;

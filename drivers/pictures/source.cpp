@@ -36,8 +36,8 @@ constexpr const char* kGone = "the disk failed during playback; check it";
 using Bytes = std::vector<std::uint8_t>;
 
 Result<std::uint64_t> sizeOf(const std::string& path, const AnsweredFile& file) {
-  constexpr std::array<std::string_view, 4> kFloats{"exr", "pfm", "npy",
-                                                    "npz"};  // of which no more is held than the file
+  // Of these no more is held than the file.
+  constexpr std::array<std::string_view, 4> kFloats{"exr", "pfm", "npy", "npz"};
   const bool floats = std::ranges::find(kFloats, endingOf(path)) != kFloats.end();
   const auto size = file.bytes();
   if (!size || *size <= (floats ? kMostBytesOfFloats : kMostBytes)) return size;

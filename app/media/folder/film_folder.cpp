@@ -206,7 +206,7 @@ std::optional<FilmOverDepth> filmOverDepth(const std::string& folder) {
       films.push_back(name);
     if (is != FolderEntry::Kind::Folder || picturesOf(place / name).empty()) continue;
     if (isOneOf(name, {"rgb", "color", "colour", "image", "images"})) color = name;
-    if (isOneOf(name, {"depth", "depths", "depth_images", "disp", "disparity", "dpt", "D", "z"})) depth = name;
+    if (isOneOf(name, {"depth", "depths", "depth_images", "disp", "disparity", "dpt", "D"})) depth = name;
   }
   if (films.empty()) return picturesOverArray(place, color, depth);
   if (!color.empty()) return std::nullopt;

@@ -8,6 +8,7 @@
 #include "app/media/folder/film_folder.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
+#include "platform/text/lower_case.h"
 #include "platform/text/plain_text.h"
 
 namespace relievo {
@@ -21,17 +22,31 @@ std::optional<double> rateForDepth(std::optional<double> told, const StreamInfo&
   return static_cast<double>(color.average_rate.num) / color.average_rate.den;
 }
 
-// Photos share their names with masks and with pictures in other forms, too: depth is gray of more than 8 bits there.
-bool mayBeDepthOf(const std::string& photo, const StreamInfo& color, const std::string& file,
-                  const StreamInfo& stream) {
+// Whether the first picture of `file` is gray and the only one; true if it cannot be read here.
+struct Look {
+  bool gray = true, alone = true;
+};
+Look lookAt(const PairReader::Backends& backends, const std::string& file) {
+  DepthSource source(backends, std::nullopt);
+  if (!source.open(file)) return {};
+  const auto first = source.next();
+  if (!first || first->frame.empty()) return {};
+  const auto second = source.next();
+  return {first->frame.model == ColorModel::Gray, !second || second->frame.empty()};
+}
+
+// Photos share their names with masks and with pictures in other forms, too: depth is gray, of more than 8 bits where
+// the file is a picture.
+bool mayBeDepthOf(const PairReader::Backends& backends, const std::string& photo, const StreamInfo& color,
+                  const std::string& file, const StreamInfo& stream) {
   const auto isFineGray = [](const StreamInfo& picture) {
     return picture.pixel_format.starts_with("gray") && picture.pixel_format != "gray";
   };
-  if (fs::path(photo).stem() != fs::path(file).stem()) return true;
+  if (lowerCase(fs::path(photo).stem().string()) != lowerCase(fs::path(file).stem().string())) return true;
   if (isFineGray(color)) return false;  // the depth itself: MiDaS writes both
   const std::string ending = endingOf(file);
   const bool picture = ending == "png" || ending == "tif" || ending == "tiff";
-  return !picture || stream.pixel_format.empty() || isFineGray(stream);
+  return picture ? stream.pixel_format.empty() || isFineGray(stream) : lookAt(backends, file).gray;
 }
 
 }  // namespace
@@ -57,7 +72,7 @@ Result<void> FilmInputs::open() {
 void FilmInputs::takeFilmOverDepth() {
   SourceOptions& options = film_.options;
   if (!options.depth_url.empty() || options.packing != Packing::Auto) return;
-  if (std::string photo = photoBeside(options.url); !photo.empty()) {
+  if (std::string photo = photoBeside(options.url); !photo.empty() && lookAt(film_.backends, options.url).alone) {
     options.depth_url = std::exchange(options.url, std::move(photo));
     return;
   }
@@ -108,7 +123,8 @@ void FilmInputs::takeDepthBeside(const StreamInfo& color) {
   if (file.empty()) return;
   film_.options.depth_url = file;
   const auto opened = openDepth(color);
-  const bool is_depth = opened && mayBeDepthOf(film_.options.url, color, file, film_.sources.depth()->stream());
+  const bool is_depth =
+      opened && mayBeDepthOf(film_.backends, film_.options.url, color, file, film_.sources.depth()->stream());
   if (is_depth) {
     notes.push_back(print("depth is read from %s beside the film; --depth FILE chooses another", file.c_str()));
     return;

@@ -30,15 +30,25 @@ double metresAt(int c, int r) {
   return (distanceMm(c, r) == 0 ? 2000 : distanceMm(c, r)) / 1000;
 }
 
-// One array of rows x columns, as NumPy writes it.
-std::string array() {
-  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (108, 160), }";
+// As NumPy begins a file.
+std::string headOf(const std::string& type, const std::string& shape) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
   header.resize(117, ' ');
-  std::string bytes = std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size() + 1) + '\0' + header + '\n';
-  for (int i = 0; i < kCols * kRows; ++i) {
-    const auto sample = static_cast<float>(metresAt(i % kCols, i / kCols));
+  return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size() + 1) + '\0' + header + '\n';
+}
+
+// Arrays of rows x columns.
+std::string array(int pictures = 1) {
+  std::string bytes = headOf("<f4", (pictures > 1 ? std::to_string(pictures) + ", " : "") + "108, 160");
+  for (int i = 0; i < pictures * kCols * kRows; ++i) {
+    const auto sample = static_cast<float>(metresAt(i % kCols, i / kCols % kRows));
     bytes.append(reinterpret_cast<const char*>(&sample), sizeof sample);
   }
+  return bytes;
+}
+std::string colors() {
+  std::string bytes = headOf("|u1", "108, 160, 3");
+  for (int i = 0; i < 3 * kCols * kRows; ++i) bytes += static_cast<char>(i % 3 * 80 + i % 40);
   return bytes;
 }
 
@@ -99,6 +109,10 @@ TEST_F(Twins, APhotoInAnotherFormIsNoDepth) {
     photo(photo_name), picture(name, codec, format);
     EXPECT_FALSE(openFilm({.url = folder_ / photo_name}).info.has_depth) << name;
   }
+  photo("e/1.jpg"), write("e/1.npy", colors());
+  EXPECT_FALSE(openFilm({.url = folder_ / "e/1.jpg"}).info.has_depth) << "colours, not depth";
+  photo("F/IMG_1.JPG"), picture("F/img_1.png", "png", "rgb24");
+  EXPECT_FALSE(openFilm({.url = folder_ / "F/IMG_1.JPG"}).info.has_depth);
 }
 
 TEST_F(Twins, NumbersGivenAloneTakeTheirPhoto) {
@@ -106,6 +120,12 @@ TEST_F(Twins, NumbersGivenAloneTakeTheirPhoto) {
   const OpenedFilm film = openFilm({.url = folder_ / "a/IMG_1.npy"});
   expectDepth(film);
   EXPECT_EQ(film.pair.color.model, ColorModel::Yuv);
+}
+
+TEST_F(Twins, AFilmOfNumbersIsNotThatOfItsThumbnail) {
+  photo("a/clip.jpg"), write("a/clip.npy", array(3));
+  const OpenedFilm film = openFilm({.url = folder_ / "a/clip.npy"});
+  EXPECT_EQ(film.info.packing, Packing::DepthAlone);
 }
 
 // Depth Pro's.
