@@ -70,17 +70,27 @@ std::string captionLine(const Frame& look, bool still) {
 }
 
 // The layout of a picture without colour of which one half is smooth, as depth is, and the other as rough as a photo.
+// Black-and-white photos, too, have a smooth sky: a guess, to be told in a note.
 std::optional<Packing> smoothHalf(const Frame& look) {
-  constexpr double kTimes = 4;
+  constexpr double kTimes = 4, kRough = 0.02, kFewShades = 1;  // what roughnessOf says of those
   for (const auto& [first, second] : {std::pair(Packing::SideBySideDepthFirst, Packing::SideBySide),
                                       std::pair(Packing::TopBottomDepthFirst, Packing::TopBottom)}) {
     const auto halves = splitPacked(look, second, DepthCode::Hue);
     if (!halves) continue;
     const double before = roughnessOf(halves->color), behind = roughnessOf(halves->depth);
-    if (kTimes * before < behind) return first;
-    if (kTimes * behind < before) return second;
+    const double rough = std::max(before, behind), smooth = std::min(before, behind);
+    if (rough == kFewShades || rough < kRough || kTimes * smooth >= rough) continue;
+    return smooth == before ? first : second;
   }
   return std::nullopt;
+}
+
+// Whether the first or the last word of the file's name says depth: no title of several words, nor a folder's name.
+bool beginsOrEndsWithDepth(const std::string& url) {
+  const std::string name = url.substr(url.rfind('/') + 1), stem(stemOf(name));
+  const std::vector<std::string> words = wordsOf(stem);
+  const bool title = stem.find_first_of(" .") != stem.npos;
+  return !title && !words.empty() && (saysDepth(words.front() + ".x") || saysDepth(words.back() + ".x"));
 }
 
 // For a picture in colours whose name says depth: a small palette hides its colour map.
@@ -89,7 +99,7 @@ std::string namedLine(const Frame& look) {
   return print(
       "its name says depth, but its colours are of %s, and it plays flat; if it is depth: --packing depth-alone "
       "--depth-code %s",
-      map ? "a small palette" : "no known map", map ? name(map->code) : "turbo, jet, ..");
+      map ? "a small palette" : "no known map", map ? name(map->code) : "turbo (or jet, ..)");
 }
 
 // The luma of shades of red alone: from black to the share of red in white.
@@ -145,20 +155,17 @@ void FilmMeaning::lookForHalves(const StreamInfo& color, const std::deque<Frame>
     info.notes.push_back(std::move(caption));
   if (found) return takeHalves(std::move(*found), look);
   const bool gray = lookAt(look).gray >= kAllGray;
-  if (const auto half = gray ? smoothHalf(look) : std::nullopt) {
-    info.reading.doubts.push_back(
-        print("one half of the gray picture is as smooth as depth beside a photo; if it is: --packing %s; if all of it "
-              "is depth: --packing depth-alone",
-              name(*half)));
-    return;
-  }
   lookForViews(look);
   if (color.codec == "rawvideo" && color.pixel_format == "rgb555le") info.reading.doubts.emplace_back(kRaw16);
   const char* const like = gray ? "gray" : isHue(lookAt(look)) ? "of pure colours" : nullptr;
   if (info.packing != Packing::Tracks) return;
   if (like != nullptr) info.notes.push_back(print("the picture is %s; if it is depth: --packing depth-alone", like));
   else if (namesDepth(options.url))
-    info.reading.doubts.push_back(namedLine(color.codec == "gif" ? meansOf(look) : look));
+    (beginsOrEndsWithDepth(options.url) ? info.reading.doubts : info.notes)
+        .push_back(namedLine(color.codec == "gif" ? meansOf(look) : look));
+  if (const auto half = gray ? smoothHalf(look) : std::nullopt)
+    info.notes.push_back(
+        print("one half of it is as smooth as depth beside a photo; if it is: --packing %s", name(*half)));
 }
 
 void FilmMeaning::takeHalves(FoundPacking found, const Frame& look) {

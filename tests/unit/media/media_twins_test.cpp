@@ -169,6 +169,11 @@ TEST_F(Twins, ColoursThatANameSaysAreDepthAreToldToPlayFlat) {
               Contains(HasSubstr("--packing depth-alone --depth-code turbo")));
   EXPECT_THAT(openFilm({.url = folder_ / "room.png"}).info.reading.doubts,
               testing::Each(testing::Not(HasSubstr("its name says depth"))));
+  for (const char* name : {"Out of My Depth.png", "in_depth_talk.png", "depth/talk.png"}) {
+    picture(name, "png", "rgb24");
+    const OpenedFilm film = openFilm({.url = folder_ / name});
+    EXPECT_THAT(film.info.reading.doubts, testing::Each(testing::Not(HasSubstr("its name says depth")))) << name;
+  }
 }
 
 }  // namespace

@@ -247,7 +247,23 @@ TEST(Views, ASmoothHalfOfAGrayPictureMayBeDepth) {
     };
     test::makeClip(folder / "a.png", {film});
     const test::OpenedFilm gray = test::openFilm({.url = folder / "a.png"});
-    EXPECT_THAT(gray.info.reading.doubts, testing::ElementsAre(HasSubstr(beside ? "--packing sbs;" : "--packing tb;")));
+    EXPECT_THAT(gray.info.notes, Contains(testing::EndsWith(beside ? "--packing sbs" : "--packing tb")));
+    EXPECT_THAT(gray.info.notes, Contains(HasSubstr("--packing depth-alone")));
+  }
+}
+
+TEST(Views, AnOrdinaryGrayPictureHasNoSmoothHalf) {
+  const test::TemporaryFolder folder;
+  for (const int kind : {0, 1, 2}) {
+    ClipTrack film{.codec = "png", .pix_fmt = "gray", .width = kSceneCols, .height = 2 * kSceneRows, .frames = 1};
+    film.sample = [kind](int, int c, int r, int) -> std::uint32_t {
+      const auto photo = static_cast<std::uint32_t>(255 * test::photoOf(c, r % kSceneRows)[0]);
+      if (r >= kSceneRows) return kind == 2 ? 60 + photo / 64 + static_cast<std::uint32_t>(r) / 4 : photo;
+      return kind == 0 ? 0 : kind == 1 ? 180 + static_cast<std::uint32_t>(r) / 20 : 60 + static_cast<std::uint32_t>(r);
+    };
+    test::makeClip(folder / "a.png", {film});
+    const test::OpenedFilm gray = test::openFilm({.url = folder / "a.png"});
+    EXPECT_THAT(gray.info.notes, testing::Each(testing::Not(HasSubstr("one half")))) << kind;
   }
 }
 
