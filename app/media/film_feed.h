@@ -123,7 +123,7 @@ class FilmFeed {
   void workOpen(const SourceOptions& options, std::uint64_t generation);
   [[nodiscard]] Outcome<std::optional<std::vector<PlaylistEntry>>> readList(const std::string& url);
   void workSeek(MediaTime target, Duration key_step, std::uint64_t generation);
-  void workRead(int turn, std::uint64_t generation);
+  void workRead(std::uint64_t generation);
   void workReopen();
   void workChoose(std::optional<std::size_t> sound, std::optional<std::size_t> words, bool words_due);
   [[nodiscard]] bool changesWords() const { return request_.tracks_due && request_.words != info_.words; }

@@ -55,7 +55,6 @@ bool FilmFeed::work() {
   } else {
     // Where pictures are late, sound must not wait for them.
     const bool pair = wantsPair(), sound = wantsSound();
-    const int turn = request_.turn;
     const bool sound_first = request_.leave_out && sound_.ahead() < kSoundAhead / 2;
     const bool leave_out = request_.leave_out;
     const auto until = std::exchange(request_.until, std::nullopt);
@@ -63,7 +62,7 @@ bool FilmFeed::work() {
     if (leave_out != left_out_ || until) reader_.leaveOut(leave_out, until);
     left_out_ = leave_out;
     const bool sounded = sound && workSound(!pair || sound_first, generation);
-    if (pair && !sounded) workRead(turn, generation);
+    if (pair && !sounded) workRead(generation);
   }
   lock.lock();
   counts_.at_work = 0;
@@ -149,9 +148,14 @@ void FilmFeed::workSeek(MediaTime target, Duration key_step, std::uint64_t gener
   state_ = State::Reading;
 }
 
-void FilmFeed::workRead(int turn, std::uint64_t generation) {
+void FilmFeed::workRead(std::uint64_t generation) {
   auto pair = reader_.next();
-  if (pair && *pair) turnTo(**pair, turn);
+  if (pair && *pair) {
+    std::unique_lock lock(mutex_);
+    const int turn = request_.turn;  // it may have changed while a camera's picture was waited for
+    lock.unlock();
+    turnTo(**pair, turn);
+  }
   if (hear_live_ && pair && *pair && (*pair)->taken) hear_live_(**pair);
   auto words = readWords();
   const PairCounters counters = reader_.counters();

@@ -2,6 +2,7 @@
 // Hands each call to the part of the reader that does it.
 #include "app/media/pair_reader.h"
 
+#include <array>
 #include <utility>
 
 #include "app/media/pairs/pair_film.h"
@@ -17,9 +18,16 @@ constexpr const char* kNotOpen = "no film is open; open one first";
 void turnTo(FramePair& pair, int turn) noexcept {
   const int quarters = (turn - pair.turn) & 3;
   if (quarters == 0) return;
-  for (Frame* const frame : {&pair.color, &pair.depth, &pair.right, &pair.material}) {
-    if (frame->empty()) continue;
-    if (auto made = turned(*frame, quarters)) *frame = std::move(*made);
+  const std::array frames{&pair.color, &pair.depth, &pair.right, &pair.material};
+  std::array<Frame, frames.size()> all;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i]->empty()) continue;
+    auto made = turned(*frames[i], quarters);
+    if (!made) return;  // out of memory: colour and depth stay as they are, together
+    all[i] = std::move(*made);
+  }
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i]->empty()) *frames[i] = std::move(all[i]);
   }
   pair.turn = turn;
 }

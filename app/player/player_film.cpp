@@ -235,9 +235,10 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
+  const bool is_new = film_.hasNewPicture();  // else it was turned
   const auto seen = screen_.show(film_.picture(), film_.goal(now), film_.late(now), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
-  else if (*seen) film_.noteShown();
+  else if (*seen && is_new) film_.noteShown();
 }
 
 void Player::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {
