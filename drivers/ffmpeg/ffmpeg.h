@@ -21,7 +21,7 @@ namespace relievo {
 // "?udp".
 //
 // A read returns Timeout after ten seconds without data, or after three for a real-time stream (rtsp, rtp, udp, tcp);
-// opening times out after a minute. `interrupt` ends every wait within a tenth of a second; one for a name server
+// opening times out after 30 s. `interrupt` ends every wait within a tenth of a second; one for a name server
 // leaves its thread behind. A real-time stream without a duration never ends: when its data stop it is Lost.
 //
 // Of several programmes (a broadcast multiplex, the bit rates of an adaptive stream) the best one is the film; the

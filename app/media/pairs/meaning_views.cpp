@@ -78,8 +78,9 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 // Looking Glass's quilts hold many views, whose number is in the name: "sea_qs8x6a0.75.png". Empty if it is none.
 std::string quiltLine(const std::string& url) {
   const std::size_t at = url.rfind("_qs");
-  int across = 0, down = 0;
-  if (at == url.npos || std::sscanf(url.c_str() + at, "_qs%dx%da", &across, &down) != 2) return "";
+  int across = 0, down = 0, read = 0;
+  if (at == url.npos || std::sscanf(url.c_str() + at, "_qs%2dx%2da%n", &across, &down, &read) != 2 || read == 0)
+    return "";
   return print("its name says a quilt of %d x %d views, no depth; %s", across, down, kWhatToDo);
 }
 

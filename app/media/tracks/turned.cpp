@@ -109,7 +109,7 @@ Result<Frame> turned(const Frame& frame, int quarter_turns) noexcept {
   try {
     memory = std::make_shared_for_overwrite<std::uint8_t[]>(bytes);
   } catch (const std::bad_alloc&) {
-    return fail(ErrorCode::Exhausted, "out of memory for an upright picture", ENOMEM);
+    return fail(ErrorCode::Exhausted, "out of memory for a turned picture", ENOMEM);
   }
   std::uint8_t* at = memory.get();
   for (std::size_t i = 0; i < upright.plane_count; ++i) {

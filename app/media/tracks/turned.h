@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rotates pictures upright that a camera took on its side or upside down.
+// Rotates pictures: upright those that a camera took on its side or upside down, and as the viewer turns them.
 #pragma once
 
 #include "hal/media/frame.h"

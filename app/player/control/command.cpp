@@ -107,7 +107,7 @@ std::optional<PlayerCommand> withOperand(const VerbEntry& entry, std::string_vie
 
 const char* formOf(Operand operand) noexcept {
   constexpr std::array kForms{"",        "+X|-X",        "+S|-S|S|P%",       "URL",   "[on|off]",     "[WORD]",
-                              "+P|-P|P", "[N|previous]", "[N|previous|off]", "[W:H]", "+N|-N|N|last", "+90|-90"};
+                              "+P|-P|P", "[N|previous]", "[N|previous|off]", "[W:H]", "+N|-N|N|last", "90|180|270"};
   return kForms[static_cast<std::size_t>(operand)];
 }
 

@@ -19,9 +19,9 @@ using Steady = std::chrono::steady_clock;
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at what may interrupt
 constexpr auto kGrace = std::chrono::milliseconds(200);  // in which FFmpeg usually ends when it is told to
 constexpr int kMostLeft = 8;                             // as in kTooManyLeft
-constexpr Error kTooManyLeft{
-    ErrorCode::Exhausted, 0,
-    "8 films that were given up are still being opened, and nothing can end that; wait, or start the program again"};
+constexpr Error kTooManyLeft{ErrorCode::Exhausted, 0,
+                             "8 films or lists that were given up are still being opened, and nothing can end that; "
+                             "wait, or start the program again"};
 
 std::atomic<int> left_behind = 0;  // threads that still run, and that nobody waits for
 

@@ -234,6 +234,9 @@ TEST(Views, AQuiltIsToldByItsName) {
   const test::OpenedFilm quilt = test::openFilm({.url = folder / "sea_qs8x6a0.75.png"});
   EXPECT_FALSE(quilt.info.has_depth);
   EXPECT_THAT(quilt.info.reading.doubts, Contains(HasSubstr("a quilt of 8 x 6 views")));
+  test::makeClip(folder / "film_qs3x2.png", {film});
+  EXPECT_THAT(test::openFilm({.url = folder / "film_qs3x2.png"}).info.reading.doubts,
+              testing::Each(testing::Not(HasSubstr("quilt"))));
 }
 
 TEST(Views, ASmoothHalfOfAGrayPictureMayBeDepth) {
