@@ -208,6 +208,7 @@ float ControlGrid::withHoles(std::size_t p, const Frames& frames) const RELIEVO_
 
 void ControlGrid::readPatch(int i0, int j0, const Frames& frames) RELIEVO_RT {
   if (wasPatch(i0, j0, frames.wanted)) return;
+  ahead_ = {};  // some of its points may be replaced
   complete({i0, j0, i0 + 4, j0 + 4}, frames);
   std::uint32_t holes = 0;
   for (int j = j0; j < j0 + 4; ++j) {
@@ -230,7 +231,7 @@ void ControlGrid::patch(int i0, int j0, const Frames& frames, Patch& out) RELIEV
 float ControlGrid::mean(int i, int j, const Frames& one) RELIEVO_RT {
   if (slotsMissing(i, j, one) != 0) {
     const std::size_t p = slotOf(i, j);
-    if (i_[p] != i || j_[p] != j) patch_ = {};  // one of its points may be replaced
+    if (i_[p] != i || j_[p] != j) patch_ = ahead_ = {};  // one of their points may be replaced
     fill(i, j, one);
   }
   const std::size_t p = slotOf(i, j);

@@ -47,7 +47,8 @@ float Evenness::evennessOf(ControlGrid& grid, int i, int j, const ControlGrid::F
   const auto within01 = [](float v) RELIEVO_RT { return std::min(std::max(v, 0.F), 1.F); };
   const float none_mm = (edges_ == Edges::Even ? kUneven : kBent) * most_mm_;
   const float even = within01((none_mm - most) / (none_mm - most_mm_));
-  return edges_ == Edges::Uneven ? even : even + within01((most - kLeastEdgeMm) / (kEdgeMm - kLeastEdgeMm));
+  if (edges_ == Edges::Uneven) return even;
+  return std::min(even + within01((most - kLeastEdgeMm) / (kEdgeMm - kLeastEdgeMm)), 1.F);
 }
 
 RELIEVO_TICK_CODE void Evenness::begin(const FrameSlots& slots, const FrameMoment& moment) RELIEVO_RT {

@@ -119,7 +119,11 @@ void SmoothLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, con
     }
     level.prepared = true;
     level.surface.prepare(slots, x_mm, y_mm, next, later, step_s);
-    if (k == narrowest_ || level.evenness.all()) return;
+    if (k == narrowest_) return;
+    if (!level.evenness.all()) continue;
+    // What was found to be absent at another place is read in time if this level ceases to be alone.
+    for (std::size_t below = narrowest_; below < k; ++below) levels_[below].absent = false;
+    return;
   }
 }
 
