@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "drivers/floats/npy_header.h"
@@ -86,7 +87,9 @@ std::vector<std::string> takeGray16Among(const std::string& folder, std::vector<
   const auto depth = std::ranges::partition(names, isColor);
   std::vector<std::string> taken(depth.begin(), depth.end());
   names.erase(depth.begin(), depth.end());
-  return taken;
+  if (4 * names.size() >= taken.size()) return taken;
+  names = std::move(taken);  // the others were a thumbnail, or the like
+  return {};
 }
 
 }  // namespace
@@ -111,8 +114,12 @@ std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std:
   std::map<std::string, std::size_t> count;
   for (const std::string& name : names) ++count[endingOf(name)];
   if (count.size() < 2) return names;
-  const auto worth = [role](const auto& entry) {
-    return std::pair(entry.second, role == Role::Depth ? -depthRankOf('.' + entry.first) : 0);
+  const auto areNumbers = [](const std::string& ending) {
+    return ending == "npz" || ending == "npy" || ending == "pfm" || ending == "dpt";
+  };
+  const auto worth = [&](const auto& entry) {
+    const bool depth = role == Role::Depth;
+    return std::tuple(depth || !areNumbers(entry.first), entry.second, depth ? -depthRankOf('.' + entry.first) : 0);
   };
   const std::string most = std::ranges::max_element(count, {}, worth)->first;
   left_out += std::erase_if(names, [&](const std::string& name) { return endingOf(name) != most; });
@@ -128,7 +135,7 @@ std::vector<std::string> chosen(std::vector<std::string> names, Role role, std::
 
 std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vector<std::string>& names) {
   const std::set<std::string> all(names.begin(), names.end());
-  for (const std::string_view ending : {"pfm", "dpt", "npy", "npz", "tif", "tiff", "png"}) {
+  for (const std::string_view ending : {"pfm", "dpt", "npy", "tif", "tiff", "png", "npz"}) {
     const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
     const auto isColor = [&](const std::string& name) {
       return isPhoto(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));

@@ -53,7 +53,8 @@ void sortByRole(const std::string& folder, const std::vector<std::string>& names
   auto& depth = by_role[Role::Depth];
   if (depth.empty()) {
     std::vector<std::string> color = names;
-    if (!by_role[Role::Color].empty())
+    const std::size_t others = by_role[Role::Other].size(), rest = names.size() - others;
+    if (!by_role[Role::Color].empty() || (rest > 0 && 2 * others >= rest))  // a single cover may be a photo
       found.left_out += std::erase_if(color, [](const std::string& name) { return roleOf(name) == Role::Other; });
     found.depth = {folder, takeDepthOfPhotos(folder, color)};
     found.color = {folder, oneKind(std::move(color), Role::Color, found.left_out)};

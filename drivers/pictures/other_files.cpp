@@ -66,10 +66,15 @@ Result<Listing> listingOf(const std::string& folder, std::size_t& may_list) {
   if (!entries) return std::unexpected(entries.error());
   const std::string place = folder.empty() || folder.ends_with('/') ? folder : folder + "/";
   Listing listing;
+  bool depth_way = false;
   for (const auto& [name, is] : *entries) {
     if (name.starts_with('.')) continue;
-    const char* const way = wayToConvert(place, name);
-    if (way != nullptr && (listing.way == nullptr || roleOf(name) == Role::Depth)) listing.way = way;
+    if (!depth_way && (listing.way == nullptr || roleOf(name) == Role::Depth)) {  // the former opens files of MATLAB
+      if (const char* const way = wayToConvert(place, name); way != nullptr) {
+        listing.way = way;
+        depth_way = roleOf(name) == Role::Depth;
+      }
+    }
     const MediaKind kind = mediaKindOf(name);
     if (kind == MediaKind::Picture) listing.pictures.push_back(name);
     else if (kind == MediaKind::Film) ++listing.films;

@@ -18,12 +18,13 @@ constexpr std::array<std::string_view, 7> kDepth{"xyz",       "dpt",      "dista
                                                  "depthmaps", "rawdepth", "mist"};
 constexpr std::array<std::string_view, 14> kColor{"rgb", "color", "colour", "image", "images", "img",   "colors",
                                                   "im",  "wide",  "rgba",   "clean", "pv",     "photo", "cam"};
-constexpr std::array<std::string_view, 33> kOther{
+constexpr std::array<std::string_view, 41> kOther{
     "thermal",    "flow",       "flows",       "segmentation", "coordinates", "occlusion", "occlusions",
     "outofframe", "semantic",   "ab",          "mask",         "masks",       "maskcrop",  "normal",
     "normals",    "seg",        "label",       "labels",       "instance",    "infrared",  "ir",
     "pose",       "thumb",      "cover",       "preview",      "confidence",  "conf",      "intrinsics",
-    "masked",     "annotation", "annotations", "semantics",    "instances"};
+    "masked",     "annotation", "annotations", "semantics",    "instances",   "nir",       "infra",
+    "lwir",       "amplitude",  "intensity",   "features",     "feature",     "albedo"};
 
 std::vector<std::string> sortedWordsOf(std::string_view name) {
   auto words = wordsOf(name);

@@ -250,7 +250,7 @@ std::optional<std::vector<PlaylistEntry>> filmsIn(const std::string& url) {
   std::size_t pictures = 0;
   for (const auto& [name, is] : entriesOf(folder)) {
     const MediaKind kind = name.starts_with('.') ? MediaKind::Neither : mediaKindOf(name);
-    pictures += kind == MediaKind::Picture ? 1 : 0;
+    pictures += kind == MediaKind::Picture && endingOf(name) != "npz" ? 1 : 0;  // an archive is often something else
     if (kind == MediaKind::Film && names.size() < kMostEntries) names.push_back(name);
   }
   if (!isListOfFilms(names.size(), pictures)) return std::nullopt;

@@ -128,6 +128,23 @@ TEST_F(Twins, AFilmOfNumbersIsNotThatOfItsThumbnail) {
   EXPECT_EQ(film.info.packing, Packing::DepthAlone);
 }
 
+// Poses, masks and the like of the pictures' names.
+TEST_F(Twins, WhatLiesBesideNamedPicturesIsNoColour) {
+  for (const std::string k : {"1", "2", "3"}) {
+    photo("a/" + k + "_rgb.jpg"), write("a/" + k + "_depth.npy", array()), archive("a/" + k + "_cam.npz");
+    picture("b/" + k + ".png", "png", "gray16be", true), write("b/" + k + ".npz", "x");
+    picture("c/" + k + ".png", "png", "gray16be", true), picture("c/" + k + "_mask.png", "png", "gray16be", false);
+  }
+  const OpenedFilm named = openFilm({.url = folder_ / "a"});
+  EXPECT_EQ(named.pair.color.model, ColorModel::Yuv);
+  EXPECT_NEAR(named.distanceAt(80, 54), 1000 * metresAt(80, 54), 6);
+  for (const char* place : {"b", "c"}) {
+    const OpenedFilm depth = openFilm({.url = folder_ / place});
+    EXPECT_EQ(depth.info.packing, Packing::DepthAlone) << place;
+    EXPECT_NEAR(depth.distanceAt(80, 54), 1000 * metresAt(80, 54), 6) << place;
+  }
+}
+
 // Depth Pro's.
 TEST_F(Twins, AFolderOfArchivesIsASeries) {
   for (const char* k : {"1", "2"}) {
