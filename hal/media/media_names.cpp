@@ -14,9 +14,10 @@ constexpr std::array<std::string_view, 40> kFilms{
     "mkv",  "mk3d", "webm", "mp4",  "m4v", "mov", "qt",  "avi",  "ts",   "m2ts", "mts",  "mpg", "mpeg", "vob",
     "flv",  "wmv",  "asf",  "ogv",  "ogm", "nut", "ivf", "y4m",  "m3u8", "3gp",  "3g2",  "mxf", "dv",   "264",
     "h264", "265",  "bag",  "mcap", "db3", "oni", "klg", "sens", "f4v",  "m2v",  "h265", "hevc"};
-constexpr std::array<std::string_view, 31> kPictures{
-    "png", "pgm", "ppm", "pbm", "pnm",  "pam",  "jpg",  "jpeg", "jpe", "jps", "mpo", "tif", "tiff", "bmp", "webp",
-    "exr", "pfm", "dpt", "npy", "npz", "heic", "heif", "avif", "jp2",  "j2k", "dpx", "tga", "sgi", "hdr",  "qoi", "phm"};
+constexpr std::array<std::string_view, 31> kPictures{"png", "pgm", "ppm", "pbm", "pnm",  "pam",  "jpg",  "jpeg",
+                                                     "jpe", "jps", "mpo", "tif", "tiff", "bmp",  "webp", "exr",
+                                                     "pfm", "dpt", "npy", "npz", "heic", "heif", "avif", "jp2",
+                                                     "j2k", "dpx", "tga", "sgi", "hdr",  "qoi",  "phm"};
 
 bool isDigit(char c) noexcept {
   return c >= '0' && c <= '9';

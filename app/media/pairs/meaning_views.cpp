@@ -2,9 +2,10 @@
 // Finds out whether a film's one picture holds more than its colour: two views of one scene, or depth in its alpha
 // channel.
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/media/pairs/film_meaning.h"
@@ -77,10 +78,15 @@ std::optional<SaidViews> saidViews(const StreamInfo& track, const Frame& picture
 
 // Looking Glass's quilts hold many views, whose number is in the name: "sea_qs8x6a0.75.png". Empty if it is none.
 std::string quiltLine(const std::string& url) {
-  const std::size_t at = url.rfind("_qs");
-  int across = 0, down = 0, read = 0;
-  if (at == url.npos || std::sscanf(url.c_str() + at, "_qs%2dx%2da%n", &across, &down, &read) != 2 || read == 0)
-    return "";
+  constexpr std::string_view kQuilt = "_qs";
+  const std::size_t at = url.rfind(kQuilt);
+  if (at == url.npos) return "";
+  const char* const end = url.data() + url.size();
+  int across = 0, down = 0;
+  const auto columns = std::from_chars(url.data() + at + kQuilt.size(), end, across);
+  if (columns.ec != std::errc() || columns.ptr == end || *columns.ptr != 'x') return "";
+  const auto rows = std::from_chars(columns.ptr + 1, end, down);
+  if (rows.ec != std::errc() || rows.ptr == end || *rows.ptr != 'a') return "";
   return print("its name says a quilt of %d x %d views, no depth; %s", across, down, kWhatToDo);
 }
 

@@ -11,7 +11,8 @@ namespace relievo {
 
 // The operand after a verb's word. Step: a number with its sign; Time: also without a sign, or with %; Level: also
 // without a sign; Track: a number from 1 on, or previous; TrackOrOff: also off; Row: a whole number, with or without a
-// sign, or last; Turn: degrees, a multiple of 90, with or without a sign. OnOff, Layout, Shape, Track and TrackOrOff may be omitted.
+// sign, or last; Turn: degrees, a multiple of 90, with or without a sign. OnOff, Layout, Shape, Track and TrackOrOff
+// may be omitted.
 enum class Operand : std::uint8_t { None, Step, Time, Url, OnOff, Layout, Level, Track, TrackOrOff, Shape, Row, Turn };
 
 struct VerbEntry {
