@@ -210,11 +210,12 @@ TouchPlan planTouch(const ClipMeasure& m, const LookAhead& ahead) {
 }
 
 std::string describe(const FeltScale& s) {
-  char text[120], broad[40] = "";
+  char text[160], broad[40] = "", middle[40] = "";
+  if (s.middle_mm > s.narrow_mm) std::snprintf(middle, sizeof middle, ", %.2f at creases", s.middle_mm);
   if (s.broad_mm > 0) std::snprintf(broad, sizeof broad, ", %.2f where straight", s.broad_mm);
   const bool alike = s.narrow_time == s.wide_time;
-  std::snprintf(text, sizeof text, "levels of %.2f and %.2f mm%s, %s%s%s in time", s.narrow_mm, s.wide_mm, broad,
-                alike ? "" : name(s.narrow_time), alike ? "" : " and ", name(s.wide_time));
+  std::snprintf(text, sizeof text, "levels of %.2f and %.2f mm%s%s, %s%s%s in time", s.narrow_mm, s.wide_mm, middle,
+                broad, alike ? "" : name(s.narrow_time), alike ? "" : " and ", name(s.wide_time));
   return text;
 }
 

@@ -18,7 +18,7 @@ namespace relievo {
 // Blocks counted per frame. A tick that has read more leaves optional work to later ticks.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
 // A frame has 16 narrow blocks around one place, and 32, with their rims, of a smooth level. A tick that has read that
-// many does not prepare the next tick, which may read another 80 of three levels. With a lower bound too few ticks of a
+// many does not prepare the next tick, which may read more, of up to four levels. With a lower bound too few ticks of a
 // moving finger would be prepared: with 24, one of 40 fingers at a noisy edge fell off it 2.5 mm early, with 48 none.
 inline constexpr std::uint64_t kBlocksOfFrame = 48;
 

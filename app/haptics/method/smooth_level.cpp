@@ -103,7 +103,7 @@ RELIEVO_TICK_CODE double SmoothLevel::height(std::size_t k, double x_mm, double 
   return f + level.evenness.at(level.surface.grid(), x_mm, y_mm).z * (v - f);
 }
 
-// A level that was absent is read in a few ticks, a frame in each, before it counts.
+// A level that was absent is read in a few ticks before it counts.
 void SmoothLevel::prepare(const FrameSlots& slots, double x_mm, double y_mm, const FrameMoment& next,
                           const FrameMoment& later, double step_s) RELIEVO_RT {
   constexpr int kBlocksAtOnce = 32;

@@ -19,7 +19,8 @@ namespace relievo {
 // A view of one moment, prepared in the tick before, like its levels.
 class SmoothLevel {
  public:
-  // Without a middle or broad level if it is not narrower or wider than the wide one.
+  // Without a middle level if it is not wider than the narrow level, without a broad one if it is not wider than the
+  // wide one.
   explicit SmoothLevel(const FeltScale& scale) noexcept;
   SmoothLevel(const SmoothLevel&) = delete;
   SmoothLevel& operator=(const SmoothLevel&) = delete;

@@ -123,6 +123,22 @@ TEST_F(ControlGridTest, WhatWasReadAheadIsNotReadAgain) {
 }
 
 // The cache holds 16 x 16 points: one 16 points further on would take the place of one of the patch.
+// A point so many columns on takes the place of one that was read.
+TEST_F(ControlGridTest, WhatWasReadAheadAndReplacedIsReadAnew) {
+  show({picture(0, [](int c, int r) { return 100 + c + r; })}, {1});
+  curved_.setPicture(window_.frames[0].field);
+  const auto readAll = [&] {
+    int ticks = 0;
+    while (!curved_.readAhead(2, 5, frames_, 40) && ++ticks < 10) {
+    }
+  };
+  readAll();
+  const std::uint64_t before = curved_.blocksRead();
+  static_cast<void>(curved_.mean(2 + ControlGrid::kSide, 5, frames_));
+  ASSERT_EQ(curved_.blocksRead(), before + 1);
+  readAll();
+  EXPECT_GT(curved_.blocksRead(), before + 1) << "the block that was replaced";
+}
 TEST_F(ControlGridTest, WhatIsReadAheadFarAwayLeavesTheLastPatchAsItWas) {
   show({picture(0, [](int c, int r) { return 100 + c + r; })}, {1});
   const Patch before = curvedPatch(2, 5);
