@@ -4,7 +4,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <set>
 #include <string_view>
@@ -16,16 +15,7 @@
 #include "platform/text/lower_case.h"
 
 namespace relievo {
-namespace {
-
 namespace fs = std::filesystem;
-
-bool isPhoto(const std::string& name) {
-  static constexpr std::array<std::string_view, 7> kEndings{"jpg", "jpeg", "jpe", "jps", "mpo", "heic", "heif"};
-  return std::ranges::find(kEndings, endingOf(name)) != kEndings.end();
-}
-
-}  // namespace
 
 std::optional<std::vector<PlaylistEntry>> photosIn(
     const SourceOptions& options, const std::function<std::unique_ptr<MediaSource>(const std::string&)>& make_source) {
@@ -43,8 +33,8 @@ std::optional<std::vector<PlaylistEntry>> photosIn(
     const bool fits = is == FolderEntry::Kind::File && mediaKindOf(name) != MediaKind::Neither &&
                       ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
     if (fits && names.size() < kMostEntries) names.push_back(name);
-    if (fits && isPhoto(name)) photos.push_back(name);
-    if (fits && isPhoto(name)) stems.insert(lowerCase(stemOf(name)));
+    if (fits && isPhotoName(name)) photos.push_back(name);
+    if (fits && isPhotoName(name)) stems.insert(lowerCase(stemOf(name)));
     if (fits && mediaKindOf(name) == MediaKind::Film) films.insert(lowerCase(stemOf(name)));
   }
   const auto streamsOf = [&](const std::string& path) {

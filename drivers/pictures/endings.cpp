@@ -20,11 +20,6 @@ namespace {
 
 constexpr std::array<std::string_view, 8> kEndings{"pfm", "npy", "npz", "dpt", "exr", "tif", "tiff", "png"};
 
-bool isPhoto(const std::string& name) {
-  const std::string ending = endingOf(name);
-  return ending == "jpg" || ending == "jpeg";
-}
-
 // PNG (ISO/IEC 15948): the signature, then IHDR with the size, the bits of a sample, and 0 for gray.
 bool isGray16Png(const std::string& path) {
   constexpr std::size_t kBits = 24, kColor = 25;
@@ -107,7 +102,7 @@ bool holdsNumbers(const std::string& path) {
 }
 
 bool holdsPhotograph(const std::vector<std::string>& names) {
-  return std::ranges::any_of(names, isPhoto);
+  return std::ranges::any_of(names, isPhotoName);
 }
 
 std::vector<std::string> oneKind(std::vector<std::string> names, Role role, std::size_t& left_out) {
@@ -138,7 +133,7 @@ std::vector<std::string> takeDepthOfPhotos(const std::string& folder, std::vecto
   for (const std::string_view ending : {"pfm", "dpt", "npy", "tif", "tiff", "png", "npz"}) {
     const auto besideOf = [&](const std::string& name) { return name.substr(0, name.rfind('.') + 1).append(ending); };
     const auto isColor = [&](const std::string& name) {
-      return isPhoto(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));
+      return isPhotoName(name) || (ending != "png" && endingOf(name) == "png" && !isGray16Png(folder + name));
     };
     const auto photo = std::ranges::find_if(
         names, [&](const std::string& name) { return all.contains(besideOf(name)) && isColor(name); });

@@ -24,8 +24,7 @@ namespace {
 
 constexpr const char* kUnsaid =
     "its pictures are in folders whose names do not say which are colour and which depth; give the folder of colour, "
-    "and "
-    "--depth with that of depth";
+    "and --depth with that of depth";
 constexpr const char* kSeveral = "this folder holds several recordings; name one of the folders in it";
 constexpr const char* kHasFilms =
     "this folder is a list of films; name one of them, or play them all with relievo play";
@@ -257,7 +256,7 @@ Result<FoundPictures> findInFolder(const std::string& folder, std::size_t& may_l
     return !listingOf(folder + name, may_list).value_or(Listing{}).pictures.empty();
   };
   if (listing->pictures.empty() && below.error().code == ErrorCode::NotFound &&
-      std::ranges::any_of(listing->folders, hasPictures))
+      std::ranges::count_if(listing->folders, hasPictures) > 1)
     return fail(ErrorCode::NotFound, kUnsaid);
   if (listing->pictures.empty()) return below;
   if (!sortByView(folder, listing->pictures, found)) sortByRole(folder, listing->pictures, found);

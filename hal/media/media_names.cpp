@@ -55,6 +55,11 @@ MediaKind mediaKindOf(std::string_view name) noexcept {
   return std::ranges::find(kFilms, ending) != kFilms.end() ? MediaKind::Film : MediaKind::Neither;
 }
 
+bool isPhotoName(std::string_view name) {
+  constexpr std::array<std::string_view, 7> kPhotos{"jpg", "jpeg", "jpe", "jps", "mpo", "heic", "heif"};
+  return std::ranges::find(kPhotos, endingOf(name)) != kPhotos.end();
+}
+
 std::vector<std::string> wordsOf(std::string_view name) {
   std::vector<std::string> words(1);
   for (const unsigned char c : name) {

@@ -40,6 +40,8 @@ inline constexpr std::array<std::string_view, 7> kDepthWords{"depth",       "dis
                                                              "disparities", "depthmap",  "disparitymap"};
 // The words of a name, in small letters: anything but letters parts them.
 [[nodiscard]] std::vector<std::string> wordsOf(std::string_view name);
+// A camera's picture by its ending: JPEG and its stereo kinds, HEIF.
+[[nodiscard]] bool isPhotoName(std::string_view name);
 // Whether a word of a file's name is one of kDepthWords; neither the ending nor the names of folders count, nor
 // "depths" in a title of words parted by blanks or points ("The Lower Depths").
 [[nodiscard]] bool saysDepth(std::string_view path);

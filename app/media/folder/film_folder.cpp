@@ -98,12 +98,6 @@ std::string twinOf(const std::string& picture, const FilesByStem& files) {
   return "";
 }
 
-// A camera's picture, or one made for the eye.
-bool mayBePhoto(const std::string& name) {
-  static constexpr std::array<std::string_view, 7> kPhotos{"jpg", "jpeg", "heic", "heif", "webp", "avif", "png"};
-  return std::ranges::find(kPhotos, endingOf(name)) != kPhotos.end();
-}
-
 // The part of a pattern of pictures' names that stands for their numbers; empty for the name of a file.
 std::string numberIn(const std::string& name) {
   const std::size_t star = name.find('*'), percent = name.find('%');
@@ -122,6 +116,11 @@ std::string numbered(const std::string& name, const std::string& number) {
 
 bool isOneOf(const std::string& word, std::initializer_list<const char*> words) {
   return std::ranges::find(words, word) != words.end();
+}
+
+// A camera's picture, or one made for the eye.
+bool mayBePhoto(const std::string& name) {
+  return isPhotoName(name) || isOneOf(endingOf(name), {"webp", "avif", "png"});
 }
 
 // Films, and files that hold a series of pictures.

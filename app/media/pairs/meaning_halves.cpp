@@ -90,7 +90,10 @@ bool beginsOrEndsWithDepth(const std::string& url) {
   const std::string name = url.substr(url.rfind('/') + 1), stem(stemOf(name));
   const std::vector<std::string> words = wordsOf(stem);
   const bool title = stem.find_first_of(" .") != stem.npos;
-  return !title && !words.empty() && (saysDepth(words.front() + ".x") || saysDepth(words.back() + ".x"));
+  const auto isDepth = [](const std::string& word) {
+    return std::ranges::find(kDepthWords, word) != kDepthWords.end();
+  };
+  return !title && !words.empty() && (isDepth(words.front()) || isDepth(words.back()));
 }
 
 // For a picture in colours whose name says depth: a small palette hides its colour map.

@@ -17,6 +17,11 @@ TEST(NaturalOrder, NumbersCountAndOtherScriptsComeLast) {
   EXPECT_EQ(names, (std::vector<std::string>{"2.png", "10.png", "A.mkv", "z.mkv", "é.mkv", "فيلم", "映画"}));
 }
 
+TEST(Names, OfPhotosEndAsACamerasDo) {
+  for (const char* name : {"IMG_1.JPG", "a/b.jpeg", "c.heic", "d.MPO"}) EXPECT_TRUE(isPhotoName(name)) << name;
+  for (const char* name : {"IMG_1.png", "jpg", "a.jpg.npy", "c.mp4"}) EXPECT_FALSE(isPhotoName(name)) << name;
+}
+
 TEST(Names, SayDepthByAWord) {
   for (const char* name : {"clip_depth.mp4", "/a/Depth.mkv", "depth-2.webm", "depths.mkv", "a-DISP.png"})
     EXPECT_TRUE(saysDepth(name)) << name;
