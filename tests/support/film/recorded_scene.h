@@ -3,6 +3,7 @@
 // colours that code a depth.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-using test::hue;
+using test::hueColor;
 using test::kHue;
 using test::kUnit;
 using test::Rgb;
@@ -67,7 +67,7 @@ struct Film {
 TEST(HueOverYuv, EverySampleAtAnEdgeIsOneSideOrTheOther) {
   for (const auto& [left, right] : {std::pair(0.1, 0.6), {0.6, 0.1}, {0.05, 0.9}, {0.75, 0.2}}) {
     const auto is_right = [](int c, int r) { return c >= 17 || r >= 21; };
-    const Film film{.color = [&](int c, int r) { return hue(is_right(c, r) ? right : left); }};
+    const Film film{.color = [&](int c, int r) { return hueColor(is_right(c, r) ? right : left); }};
     const Frame frame = film.frame();
     const auto field = HeightField::make(frame, kHue, kUnit).value();
     int wrong_side = 0, holes = 0;
@@ -96,7 +96,7 @@ TEST(HueOverYuv, ARoundBallKeepsItsRim) {
     const double out = std::hypot(c - 23.3, r - 15.8) / 13.2;
     return out < 1 ? 0.66 + 0.09 * out * out : 0.95;
   };
-  const Film film{.color = [&](int c, int r) { return hue(truth(c, r)); }, .blurred = true};
+  const Film film{.color = [&](int c, int r) { return hueColor(truth(c, r)); }, .blurred = true};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   int off = 0;
@@ -109,7 +109,7 @@ TEST(HueOverYuv, ARoundBallKeepsItsRim) {
 // A step so low that the mixture of its colours is near the circle of hues.
 TEST(HueOverYuv, ALowStepIsAsSharpAsItsBrightness) {
   const auto truth = [](int c) { return c >= 17 ? 0.8 : 0.7; };
-  const Film film{.color = [&](int c, int) { return hue(truth(c)); }};
+  const Film film{.color = [&](int c, int) { return hueColor(truth(c)); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   for (int c = 0; c < 48; ++c) EXPECT_NEAR(field.heightMm(c, 10), truth(c), 0.02) << c;
@@ -121,7 +121,7 @@ TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
   constexpr double kBegin = 0.02, kRise = 0.005;
   for (const bool across : {true, false}) {
     const Film film{
-        .cols = 24, .rows = 24, .color = [&](int c, int r) { return hue(kBegin + kRise * (across ? c : r)); }};
+        .cols = 24, .rows = 24, .color = [&](int c, int r) { return hueColor(kBegin + kRise * (across ? c : r)); }};
     const Frame frame = film.frame();
     const auto field = HeightField::make(frame, kHue, kUnit).value();
     for (const auto& [size, most] : {std::pair(2, 8), {3, 8}, {4, 8}, {5, 8}, {6, 8}, {7, 8}, {12, 4}}) {
@@ -139,7 +139,7 @@ TEST(HueOverYuv, TheMeanOfABlockIsThatOfItsMiddleWhereverItBegins) {
 TEST(HueOverYuv, TheMeanOfABlockWithACornerOfTheCurveIsThatOfItsSamples) {
   constexpr double kRise = 0.005;
   constexpr int kSize = 16;
-  const Film film{.cols = 48, .rows = 32, .color = [](int c, int) { return hue(0.05 + kRise * c); }};
+  const Film film{.cols = 48, .rows = 32, .color = [](int c, int) { return hueColor(0.05 + kRise * c); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   for (int c = 0; c + kSize <= film.cols; ++c) {
@@ -150,7 +150,8 @@ TEST(HueOverYuv, TheMeanOfABlockWithACornerOfTheCurveIsThatOfItsSamples) {
 
 // Three of eight samples are known, those of the upper quarters' upper three fourths: fewer than half.
 TEST(HueOverYuv, ABlockIsAHoleByAllOfItsSamples) {
-  const Film film{.cols = 48, .rows = 32, .color = [](int c, int r) { return r < 6 ? hue(0.1 + 0.02 * c) : Rgb{}; }};
+  const Film film{
+      .cols = 48, .rows = 32, .color = [](int c, int r) { return r < 6 ? hueColor(0.1 + 0.02 * c) : Rgb{}; }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   EXPECT_TRUE(std::isnan(field.meanHeight(0, 0, {16, 16, 16})));
@@ -180,7 +181,8 @@ TEST(HueOverYuv, ColoursBeyondTheEndsOfTheCurveAreThoseOfItsEnds) {
 
 // Columns in any order, with edges, black and the seam among them.
 TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
-  const Film film{.color = [](int c, int r) { return c < 9 ? Rgb{} : hue(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
+  const Film film{
+      .color = [](int c, int r) { return c < 9 ? Rgb{} : hueColor(c < 30 ? 0.01 * c : 0.9 + 0.01 * (r % 16)); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   std::vector<int> columns;
@@ -199,7 +201,7 @@ TEST(HueOverYuv, ARowIsReadAsItsSamplesAre) {
 TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
   for (const auto& [left, right] : {std::pair(0.5, 0.8), {0.8, 0.5}, {0.1, 0.4}, {0.25, 0.65}}) {
     const auto truth = [&](int c) { return left + (right - left) / (1 + std::exp(-(c - 20.3))); };
-    const Film film{.color = [&](int c, int) { return hue(truth(c)); }};
+    const Film film{.color = [&](int c, int) { return hueColor(truth(c)); }};
     const Frame frame = film.frame();
     const auto field = HeightField::make(frame, kHue, kUnit).value();
     for (int c = 0; c < 48; ++c) {
@@ -210,7 +212,7 @@ TEST(HueOverYuv, ASoftEdgeHasItsSlope) {
 
 // The mean of two hues that are close is between them, a slope and not a wall.
 TEST(HueOverYuv, AMixtureOfCloseHuesIsBetweenThem) {
-  const Film film{.color = [](int c, int) { return hue(c >= 17 ? 0.45 : 0.3); }};
+  const Film film{.color = [](int c, int) { return hueColor(c >= 17 ? 0.45 : 0.3); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   for (int c = 0; c < 48; ++c) {
@@ -221,7 +223,7 @@ TEST(HueOverYuv, AMixtureOfCloseHuesIsBetweenThem) {
 }
 
 TEST(HueOverYuv, BlackIsAHoleWithASharpEdge) {
-  const Film film{.color = [](int c, int) { return c >= 17 ? Rgb{} : hue(0.2); }};
+  const Film film{.color = [](int c, int) { return c >= 17 ? Rgb{} : hueColor(0.2); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   for (int c = 0; c < 48; ++c) {
@@ -237,7 +239,7 @@ TEST(HueOverYuv, BlackIsAHoleWithASharpEdge) {
 // Coding moves a hue at the seam, red, from one end of the depth to the other. Red alone is a hole; red beside a
 // surface near one end belongs to that end, so that no wall appears.
 TEST(HueOverYuv, TheSeamIsNoWall) {
-  const Film film{.color = [](int c, int) { return hue(c < 24 ? 0.02 : (c % 2 == 0 ? 0.0005 : 0.9995)); }};
+  const Film film{.color = [](int c, int) { return hueColor(c < 24 ? 0.02 : (c % 2 == 0 ? 0.0005 : 0.9995)); }};
   const Frame frame = film.frame();
   const auto field = HeightField::make(frame, kHue, kUnit).value();
   for (int c = 0; c < 48; ++c) {
@@ -253,7 +255,7 @@ TEST(HueOverYuv, TheSeamIsNoWall) {
 // A hole that is painted red keeps its border, though the surface beside it may be as bright.
 TEST(HueOverYuv, RedIsAHoleUpToItsEdge) {
   for (const double beside : {0.15, 0.55, 0.8}) {
-    const Film film{.color = [&](int c, int) { return hue(c >= 17 ? 0 : beside); }};
+    const Film film{.color = [&](int c, int) { return hueColor(c >= 17 ? 0 : beside); }};
     const Frame frame = film.frame();
     const auto field = HeightField::make(frame, kHue, kUnit).value();
     for (int c = 0; c < 48; ++c) {
@@ -271,7 +273,7 @@ TEST(HueOverYuv, RedIsAHoleUpToItsEdge) {
 // A film whose colours are all a little paler than pure is read all the same.
 TEST(HueOverYuv, PaleHuesAreReadWhereNoneIsPure) {
   const Film film{.color = [](int c, int) {
-    Rgb color = hue(0.1 + 0.005 * c);
+    Rgb color = hueColor(0.1 + 0.005 * c);
     for (double& part : color) part = 0.08 + 0.84 * part;
     return color;
   }};

@@ -36,7 +36,7 @@ double hueAt(double c, double r) {
 }
 // Luma and chroma of BT.709, 0 to 1.
 std::array<double, 3> colorAt(int c, int r) {
-  const auto [red, green, blue] = test::hue(hueAt(c, r));
+  const auto [red, green, blue] = test::hueColor(hueAt(c, r));
   const double luma = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
   return {luma, (blue - luma) / 1.8556 + 128.0 / 255, (red - luma) / 1.5748 + 128.0 / 255};
 }

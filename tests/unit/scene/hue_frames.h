@@ -2,14 +2,13 @@
 // Depth in hues, and a picture to write it into.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 
 #include "app/scene/depth_calibration.h"
 #include "app/scene/display_volume.h"
 #include "hal/media/frame.h"
+#include "tests/support/film/recorded_scene.h"
 
 namespace relievo::test {
 
@@ -17,12 +16,6 @@ constexpr DepthCalibration kHue{.polarity = DepthPolarity::NearIsHigh, .code = D
 constexpr DisplayVolume kUnit{160, 108, 1};  // a height is a hue
 
 using Rgb = std::array<double, 3>;
-
-// 0 to 1, from red over yellow.
-inline Rgb hue(double s) {
-  const auto part = [&](double n) { return std::clamp(std::abs(std::fmod(6 * s + n, 6) - 3) - 1, 0.0, 1.0); };
-  return {part(0), part(4), part(2)};
-}
 
 // Without samples.
 inline Frame bt709Frame(int cols, int rows, std::uint8_t chroma_shift) {

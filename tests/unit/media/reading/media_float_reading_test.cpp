@@ -15,6 +15,7 @@
 #include "tests/support/film/depth_frames.h"
 #include "tests/support/film/float_tiff.h"
 #include "tests/support/film/opened_film.h"
+#include "tests/unit/media/reading/pfm_writer.h"
 
 namespace relievo {
 namespace {
@@ -36,14 +37,8 @@ double metresAt(int c, int r) {
 
 template <class Value>
 void writePfm(const std::string& path, Value&& value) {
-  std::ofstream file(path, std::ios::binary);
-  file << "Pf\n" << kCols << ' ' << kRows << "\n-1\n";
-  for (int r = kRows - 1; r >= 0; --r) {
-    for (int c = 0; c < kCols; ++c) {
-      const float sample = metresAt(c, r) == 0 ? kHole : static_cast<float>(value(metresAt(c, r)));
-      file.write(reinterpret_cast<const char*>(&sample), sizeof sample);
-    }
-  }
+  test::writePfm(path, kCols, kRows,
+                 [&](int c, int r) { return metresAt(c, r) == 0 ? kHole : static_cast<float>(value(metresAt(c, r))); });
 }
 
 // Each distance is the true one times the same number, holes are holes.

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "app/media/reading/depth_meaning.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/depth_frames.h"
 #include "tests/support/film/opened_film.h"
+#include "tests/unit/media/reading/pfm_writer.h"
 
 namespace relievo {
 namespace {
@@ -28,15 +28,10 @@ double metresAt(int c, int r) {
 
 template <class Value>
 void writePfm(const std::string& path, Value&& value) {
-  std::ofstream file(path, std::ios::binary);
-  file << "Pf\n" << kCols << ' ' << kRows << "\n-1\n";
-  for (int r = kRows - 1; r >= 0; --r) {
-    for (int c = 0; c < kCols; ++c) {
-      const double metres = metresAt(c, r);
-      const auto sample = static_cast<float>(std::isinf(metres) ? metres : value(metres));
-      file.write(reinterpret_cast<const char*>(&sample), sizeof sample);
-    }
-  }
+  test::writePfm(path, kCols, kRows, [&](int c, int r) {
+    const double metres = metresAt(c, r);
+    return std::isinf(metres) ? metres : value(metres);
+  });
 }
 
 // As MiDaS's and other networks' raw output: scaled and shifted as it happens.
