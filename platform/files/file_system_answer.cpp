@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostThreads = 64;
-constexpr const char* kNoThread = "the limit on processes is reached; raise it (ulimit -u) or end some";
 constexpr auto kLook = std::chrono::milliseconds(10);    // between looks at the flag of CancelsAnswers
 constexpr auto kGrace = std::chrono::milliseconds(100);  // in which a file system that works answers
 
@@ -113,7 +112,7 @@ struct FileSystemAnswers::Shared {
     ++self->idle;
     return {};
   } catch (const std::system_error& error) {
-    return fail(ErrorCode::Exhausted, kNoThread, error.code().value());
+    return fail(ErrorCode::Exhausted, kProcessLimit, error.code().value());
   }
 
   // Fails if all threads are busy, and no other one can be started.

@@ -16,6 +16,7 @@ namespace relievo {
 
 inline constexpr Duration kAnswerPatience = std::chrono::seconds(10);
 inline constexpr Error kNoAnswer{ErrorCode::Timeout, 0, "the file system does not answer within 10 s; check the mount"};
+inline constexpr const char* kProcessLimit = "the limit on processes is reached; raise it (ulimit -u) or end some";
 inline constexpr Error kInterrupted{ErrorCode::Cancelled, 0, "interrupted while waiting for the file system"};
 
 // A system call on a stalled mount cannot be ended from outside: its thread is given up. The thread goes on when the

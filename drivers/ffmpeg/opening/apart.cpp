@@ -11,6 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "platform/files/file_system_answer.h"
+
 namespace relievo::ffmpeg {
 namespace {
 
@@ -64,9 +66,8 @@ Result<bool> runApart(std::function<void()> work, const std::function<bool()>& g
   const auto call = std::make_shared<Call>(std::move(work));
   try {
     std::thread([call] { run(*call); }).detach();
-  } catch (const std::system_error&) {  // no more threads
-    call->work();
-    return true;
+  } catch (const std::system_error& error) {
+    return fail(ErrorCode::Exhausted, kProcessLimit, error.code().value());
   }
   return waitFor(*call, gives_up);
 }

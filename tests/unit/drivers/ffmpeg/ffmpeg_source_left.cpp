@@ -10,7 +10,9 @@
 #include <string_view>
 #include <thread>
 
+#include "platform/files/file_system_answer.h"
 #include "platform/unique_fd.h"
+#include "tests/support/machine/no_threads.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
@@ -20,7 +22,7 @@ using namespace std::chrono_literals;
 
 constexpr std::string_view kSilent = "silent.invalid";
 std::atomic<bool> name_server_is_silent{false};
-std::atomic<int> asking{0};
+std::atomic<int> asking{0}, asked{0};
 
 // Gives up a film from that server once its name is asked for.
 void giveUpOne() {
@@ -74,6 +76,20 @@ TEST(FfmpegText, IsGivenUpWhileItsServersNameIsLookedUp) {
   while (asking > before) std::this_thread::sleep_for(1ms);
 }
 
+// On the caller's thread the look-up could not be given up.
+TEST(FfmpegText, IsRefusedWhereNoThreadCanBeStarted) {
+  const int before = asked;
+  const test::NoThreads none;
+  const auto text = readFfmpegText("http://silent.invalid/list.m3u8", 1 << 20, false);
+  const Error opening = openErrorOf("http://silent.invalid/film.mkv");
+  ASSERT_FALSE(text);
+  for (const Error& error : {text.error(), opening}) {
+    EXPECT_EQ(error.code, ErrorCode::Exhausted);
+    EXPECT_STREQ(error.message, kProcessLimit);
+  }
+  EXPECT_EQ(asked, before);
+}
+
 TEST(FfmpegText, IsGivenUpWhileNobodyWritesToItsPipe) {
   const test::TemporaryFolder folder;
   const std::string pipe = folder / "list.m3u8";
@@ -94,6 +110,7 @@ extern "C" int getaddrinfo(const char* node, const char* service, const addrinfo
   static const auto real = reinterpret_cast<Function>(::dlsym(RTLD_NEXT, "getaddrinfo"));
   if (node == nullptr || node != relievo::kSilent) return real(node, service, hints, found);
   ++relievo::asking;
+  ++relievo::asked;
   while (relievo::name_server_is_silent) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   --relievo::asking;
   return EAI_AGAIN;
