@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t kHeader = 0x1A45DFA3, kSegment = 0x18538067, kCluster = 0x1F43B675, kTags = 0x1254C367;
 constexpr std::uint32_t kSeekHead = 0x114D9B74, kSeek = 0x4DBB, kSeekId = 0x53AB, kSeekPosition = 0x53AC;
 constexpr std::uint32_t kInfo = 0x1549A966, kTracks = 0x1654AE6B, kAttachments = 0x1941A469, kChapters = 0x1043A770,
-                        kCues = 0x1C53BB6B;
+                        kCues = 0x1C53BB6B, kCuePoint = 0xBB, kCuePosition = 0xB7;
 constexpr std::string_view kSimpleTag = "\x67\xC8";
 constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 constexpr int kMostElements = 1000;                          // in all, that are looked at; of a list, too
@@ -140,6 +140,7 @@ class Lists {
     kind.bytes += std::min(element.bytes, kFarthest);
     if (kind.bytes > kind.most) return exceed(kind.why);
     if (kind.listed) countItems(kind, element);
+    if (kind.id == kCues && kind.bytes > 2 * std::uint64_t{kMostCues}) countCues(element);  // two bytes each at least
     if (kind.id == kTags || &kind == &loose_) countTags(element);
     if (kind.id == kSeekHead) followSeeks(element);
   }
@@ -152,6 +153,19 @@ class Lists {
       const auto item = elementAt(file_, place);
       if (!item) return void(damage_ = place);
       place = behind(*item);
+    }
+  }
+
+  // FFmpeg keeps each point and each position in it, also those that hold nothing.
+  void countCues(const Element& cues) {
+    const auto bytes = contentOf(cues);
+    const Readable content = readable(std::span(bytes));
+    for (std::uint64_t place = 0; place < bytes.size();) {
+      const auto item = elementAt(content, place);
+      const bool is_point = item && item->id == kCuePoint;
+      if (!item || (item->bytes == kUnknown && !is_point)) return void(damage_ = cues.data + place);
+      if ((is_point || item->id == kCuePosition) && ++cues_ > kMostCues) return exceed(kTooManyCues);
+      place = item->data + (is_point ? 0 : item->bytes);  // what is in a point comes next
     }
   }
 
@@ -215,7 +229,7 @@ class Lists {
   std::optional<std::uint64_t> damage_;        // the place in a list where it is not one
   std::uint64_t segment_ = 0;                  // as FFmpeg takes it if damage hides where it begins
   std::vector<std::uint64_t> sought_, measured_;
-  int looked_at_ = 0, tags_ = 0;
+  int looked_at_ = 0, tags_ = 0, cues_ = 0;
   const char* exceeded_ = nullptr;
 };
 

@@ -121,6 +121,14 @@ TEST_F(MatroskaFilm, WithListsThatTakeTooMuchMemoryIsRefused) {
   EXPECT_EQ(places.code, ErrorCode::Unsupported);
   EXPECT_THAT(places.message, HasSubstr("places to seek to"));
   EXPECT_TRUE(makeFfmpegSource()->open(with(element(kCues, repeated(kCue, 25'000))))) << "of a usual length";
+  const std::string of_nothing = element(kCues, repeated(kCue, 1'300'000));
+  EXPECT_THAT(openErrorOf(with(of_nothing)).message, HasSubstr("1.2 million places"));
+  const std::string damaged = element(kCues, std::string(100, '\0') + of_nothing);
+  EXPECT_THAT(openErrorOf(with(damaged)).message, HasSubstr("1.2 million places"));
+  // As FFmpeg writes them: ten hours of 30 key frames a second.
+  const std::string written =
+      "\xBB\x94\xB3\x84\x01\x02\x03\x04\xB7\x8C\xF7\x81\x01\xF1\x84\x01\x02\x03\x04\xF0\x81\x10";
+  EXPECT_TRUE(makeFfmpegSource()->open(with(element(kCues, repeated(written, 1'080'000)))));
   EXPECT_THAT(openErrorOf(with(element(kTracks, element("\xEC", std::string(4'200'000, 'x'))))).message,
               HasSubstr("list of tracks"));
   EXPECT_THAT(openErrorOf(with(element(kTracks, repeated(kTrack, 1001)))).message, HasSubstr("1000 tracks"));
