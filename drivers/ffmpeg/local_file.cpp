@@ -10,6 +10,7 @@
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/bounds/jpeg_bounds.h"
 #include "drivers/ffmpeg/bounds/matroska_bounds.h"
+#include "drivers/ffmpeg/bounds/mp4_bounds.h"
 #include "drivers/ffmpeg/bounds/png_bounds.h"
 #include "platform/files/answered_file.h"
 #include "platform/files/file_system_answer.h"
@@ -73,7 +74,7 @@ Result<AVIOContext*> openLocalFile(const std::string& path, Watch& watch) {
     if (file.error().code == ErrorCode::Timeout) watch.noteUnanswered(file.error());
     return std::unexpected(file.error());
   }
-  for (const auto exceeded : {exceededPngBound, exceededJpegFileBound, exceededMatroskaBound}) {
+  for (const auto exceeded : {exceededPngBound, exceededJpegFileBound, exceededMatroskaBound, exceededMp4Bound}) {
     if (const char* const why = exceeded(readable(*file))) return fail(ErrorCode::Unsupported, why);
   }
   auto local = std::make_unique<LocalFile>(std::move(*file), &watch);

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// Boxes of ISO/IEC 14496-12 and of QuickTime: a size, a type, and what is in it. FFmpeg takes a table wherever it
+// stands.
+#include "drivers/ffmpeg/bounds/mp4_bounds.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace relievo::ffmpeg {
+namespace {
+
+constexpr std::uint64_t kNoEnd = std::uint64_t{1} << 62;  // the kernel refuses to read beyond 2^63
+constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{16} << 20, kMostRunBytes = std::uint64_t{8} << 20;
+constexpr int kMostBoxes = 100'000, kMostTracks = 1000, kMostFragments = 200'000;
+constexpr int kDeepest = 10;                                        // as in FFmpeg
+constexpr int kLaterBoxes = 64;                                     // that are looked at behind the header
+constexpr std::uint64_t kSoundPiece = 1024, kShortestPacket = 160;  // samples that FFmpeg takes together
+
+constexpr std::uint32_t type(std::string_view name) {
+  std::uint32_t value = 0;
+  for (const char c : name) value = value << 8 | static_cast<std::uint8_t>(c);
+  return value;
+}
+
+std::uint64_t bigEndian(std::span<const std::uint8_t> bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+struct Box {
+  std::uint32_t type = 0;
+  std::uint64_t data = 0, end = 0;
+
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return end - data; }
+};
+
+std::optional<Box> boxAt(const Readable& file, std::uint64_t place, std::uint64_t end) {
+  std::array<std::uint8_t, 16> head{};
+  if (place >= end || end - place < 8) return std::nullopt;
+  const std::size_t got = file(place, head);
+  if (got < 8) return std::nullopt;
+  const std::span bytes(head);
+  std::uint64_t size = bigEndian(bytes.first(4)), in_head = 8;
+  if (size == 1) size = got < 16 ? 0 : bigEndian(bytes.subspan(8)), in_head = 16;
+  else if (size == 0) size = end - place;
+  if (size < in_head || end - place < in_head) return std::nullopt;
+  return Box{.type = static_cast<std::uint32_t>(bigEndian(bytes.subspan(4, 4))),
+             .data = place + in_head,
+             .end = place + std::min(size, end - place)};
+}
+
+bool isContainer(std::uint32_t kind) noexcept {
+  constexpr std::string_view kNames[] = {"moov", "trak", "mdia", "minf", "stbl", "edts", "dinf", "mvex", "moof",
+                                         "traf", "tref", "udta", "sinf", "schi", "wave", "gmhd", "ilst"};
+  return std::ranges::any_of(kNames, [kind](std::string_view name) { return kind == type(name); });
+}
+
+class Tables {
+ public:
+  explicit Tables(const Readable& file) noexcept : file_(&file) {}
+
+  const char* exceeded() {
+    int later = 0;
+    const auto first = boxAt(*file_, 0, kNoEnd);
+    for (auto box = first; box && later < kLaterBoxes; box = boxAt(*file_, box->end, kNoEnd)) {
+      note(*box, 0, 0);
+      if (exceeded_ != nullptr) break;
+      if (has_header_ || is_part_) ++later;
+    }
+    return has_header_ || (first && isNamed(*first)) ? exceeded_ : nullptr;
+  }
+
+ private:
+  // What a track's tables say.
+  struct Track {
+    std::uint64_t samples = 0, chunks = 0, edits = 0;
+    Box runs;  // of chunks with as many samples
+    bool picture = false, sound = false, ticks = false, packets = false;
+  };
+
+  static bool isNamed(const Box& box) noexcept {
+    for (int shift = 0; shift < 32; shift += 8) {
+      const auto c = static_cast<std::uint8_t>(box.type >> shift);
+      if (c < ' ' || c > '~') return false;
+    }
+    return true;
+  }
+
+  void exceed(const char* why) noexcept {
+    if (exceeded_ == nullptr) exceeded_ = why;
+  }
+  void add(std::uint64_t samples) noexcept {
+    samples_ += std::min(samples, 2 * kMostMp4Samples);
+    if (samples_ > kMostMp4Samples) exceed(kTooManyMp4Samples);
+  }
+
+  // 0 where there is nothing.
+  [[nodiscard]] std::uint64_t numberIn(const Box& box, std::uint64_t at, std::size_t size = 4) const {
+    std::array<std::uint8_t, 8> bytes{};
+    if (box.bytes() < at + size) return 0;
+    const std::span number = std::span(bytes).first(size);
+    return (*file_)(box.data + at, number) == size ? bigEndian(number) : 0;
+  }
+
+  void lookInto(const Box& parent, std::uint64_t from, int depth) {
+    for (std::uint64_t place = from; exceeded_ == nullptr;) {
+      const auto box = boxAt(*file_, place, parent.end);
+      if (!box) return;
+      note(*box, parent.type, depth);
+      place = box->end;
+    }
+  }
+
+  void note(const Box& box, std::uint32_t parent, int depth) {
+    if (++boxes_ > kMostBoxes) return exceed(kTooManyMp4Boxes);
+    if ((parent == type("ilst") || parent == type("udta")) && ++tags_ > kMostMp4Tags) return exceed(kTooManyMp4Tags);
+    if (depth > kDeepest) return;
+    if (box.type == type("moov") || hidesHeader(box)) has_header_ = true;
+    if (box.type == type("trak")) return noteTrack(box, depth);
+    if (box.type == type("cmov")) return unpack(box, depth);
+    if (box.type == type("meta")) return lookInto(box, beginOfMeta(box), depth + 1);
+    if (isContainer(box.type) || hidesHeader(box)) return lookInto(box, box.data, depth + 1);
+    noteTable(box);
+    noteList(box);
+  }
+
+  // FFmpeg takes these for the header if that is in them.
+  [[nodiscard]] bool hidesHeader(const Box& box) const {
+    if (box.type != type("free") && box.type != type("hoov")) return false;
+    const std::uint64_t first = numberIn(box, 4);
+    return first == type("mvhd") || first == type("cmov");
+  }
+
+  // Where FFmpeg finds the first box in it.
+  [[nodiscard]] std::uint64_t beginOfMeta(const Box& box) const {
+    constexpr std::uint64_t kFarthest = 64;
+    for (std::uint64_t at = 4; at < kFarthest; at += 4) {
+      if (numberIn(box, at) == type("hdlr")) return box.data + at - 4;
+    }
+    return box.end;
+  }
+
+  void noteTrack(const Box& box, int depth) {
+    if (++tracks_ > kMostTracks) return exceed(kTooManyMp4Boxes);
+    const Track before = std::exchange(track_, {});
+    lookInto(box, box.data, depth + 1);
+    const bool in_chunks = track_.sound && !track_.picture && track_.ticks;
+    const std::uint64_t entries = in_chunks ? soundPieces() : track_.samples;
+    const std::uint64_t edits = std::clamp<std::uint64_t>(track_.edits, 2, kMostMp4Samples);  // the first is empty
+    add(std::min(entries, 2 * kMostMp4Samples) * (edits - 1));                                // each may repeat all
+    track_ = before;
+  }
+
+  // Of sound that is not coded, where each sample of a chunk counts by itself.
+  [[nodiscard]] std::uint64_t soundPieces() {
+    constexpr std::uint64_t kRunBytes = 12;
+    if (track_.runs.bytes() > kMostRunBytes) exceed(kTooManyMp4Samples);
+    if (exceeded_ != nullptr) return 0;
+    std::vector<std::uint8_t> runs(static_cast<std::size_t>(track_.runs.bytes()));
+    runs.resize((*file_)(track_.runs.data, runs));
+    const std::span bytes(runs);
+    const std::uint64_t piece = track_.packets ? kShortestPacket : kSoundPiece;
+    std::uint64_t pieces = track_.chunks;
+    for (std::size_t at = 8; at + kRunBytes <= runs.size(); at += kRunBytes) {
+      const std::uint64_t first = bigEndian(bytes.subspan(at, 4)), samples = bigEndian(bytes.subspan(at + 4, 4));
+      const bool last = at + 2 * kRunBytes > runs.size();
+      const std::uint64_t next = last ? track_.chunks + 1 : bigEndian(bytes.subspan(at + kRunBytes, 4));
+      const std::uint64_t chunks = std::min(next > first ? next - first : 0, track_.chunks);
+      pieces += std::min(chunks * (samples / piece), 2 * kMostMp4Samples);
+    }
+    return pieces;
+  }
+
+  void noteTable(const Box& box) {
+    const auto count = [&] { return numberIn(box, 4); };
+    if (box.type == type("stsz") || box.type == type("stz2")) track_.samples += numberIn(box, 8);
+    else if (box.type == type("stts")) track_.ticks = count() == 1 && numberIn(box, 12) == 1;
+    else if (box.type == type("stsc")) track_.runs = box;
+    else if (box.type == type("stco")) track_.chunks += std::min(count(), box.bytes() / 4);
+    else if (box.type == type("co64")) track_.chunks += std::min(count(), box.bytes() / 8);
+    else if (box.type == type("elst")) track_.edits += box.bytes() / (numberIn(box, 0, 1) == 1 ? 20 : 12);
+    else if (box.type == type("stsd")) track_.packets = track_.packets || numberIn(box, 24, 2) != 0;
+    else if (box.type == type("hdlr")) track_.picture = track_.picture || numberIn(box, 8) == type("vide");
+    if (box.type == type("hdlr")) track_.sound = track_.sound || numberIn(box, 8) == type("soun");
+  }
+
+  void noteList(const Box& box) {
+    if (box.type == type("tfhd")) is_part_ = true;
+    if (box.type == type("trun")) add(numberIn(box, 4));
+    if (box.type == type("sidx")) fragments_ += static_cast<int>(numberIn(box, numberIn(box, 0, 1) == 0 ? 22 : 30, 2));
+    if (box.type == type("keys")) tags_ += static_cast<int>(std::min(numberIn(box, 4), box.bytes() / 8));
+    if (fragments_ > kMostFragments) exceed(kTooManyMp4Boxes);
+    if (tags_ > kMostMp4Tags) exceed(kTooManyMp4Tags);
+  }
+
+  // A packed header: what it is packed by, its length, and a stream of zlib.
+  void unpack(const Box& box, int depth) {
+    constexpr std::uint64_t kStream = 24;
+    const std::uint64_t length = numberIn(box, kStream - 4);
+    if (box.bytes() < kStream || box.bytes() > kMostHeaderBytes || length > kMostHeaderBytes)
+      return exceed(kTooLongMp4Header);
+    std::vector<std::uint8_t> packed(static_cast<std::size_t>(box.bytes() - kStream)),
+        header(static_cast<std::size_t>(length));
+    packed.resize((*file_)(box.data + kStream, packed));
+    uLongf unpacked = header.size();
+    if (::uncompress(header.data(), &unpacked, packed.data(), packed.size()) != Z_OK) return exceed(kTooLongMp4Header);
+    const Readable content = readable(std::span<const std::uint8_t>(header).first(unpacked));
+    const Readable* const around = std::exchange(file_, &content);
+    lookInto({.type = type("moov"), .data = 0, .end = unpacked}, 0, depth + 1);
+    file_ = around;
+  }
+
+  const Readable* file_;
+  Track track_;
+  bool has_header_ = false, is_part_ = false;  // of a film whose header is another file
+  std::uint64_t samples_ = 0;
+  int boxes_ = 0, tracks_ = 0, tags_ = 0, fragments_ = 0;
+  const char* exceeded_ = nullptr;
+};
+
+}  // namespace
+
+const char* exceededMp4Bound(const Readable& file) {
+  return Tables(file).exceeded();
+}
+
+}  // namespace relievo::ffmpeg

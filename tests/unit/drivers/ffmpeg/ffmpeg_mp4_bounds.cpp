@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// MP4 and QuickTime films whose tables say far more than the file holds: FFmpeg takes gigabytes for them, or minutes.
+#include <gmock/gmock.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <span>
+
+#include "drivers/ffmpeg/bounds/mp4_bounds.h"
+#include "tests/support/files.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
+
+namespace relievo {
+namespace {
+
+using ffmpeg::exceededMp4Bound;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+using testing::IsNull;
+using testing::StrEq;
+
+std::string bigEndian(std::uint64_t number, int bytes = 4) {
+  std::string text;
+  for (int shift = 8 * bytes - 8; shift >= 0; shift -= 8) text += static_cast<char>(number >> shift & 0xFF);
+  return text;
+}
+std::string box(const std::string& type, const std::string& content = "") {
+  return bigEndian(8 + content.size()) + type + content;
+}
+// With a version and flags of 0.
+std::string table(const std::string& type, std::initializer_list<std::uint64_t> numbers, const std::string& more = "") {
+  std::string content(4, '\0');
+  for (const std::uint64_t number : numbers) content += bigEndian(number);
+  return box(type, content + more);
+}
+std::string repeated(const std::string& one, std::size_t count) {
+  std::string all;
+  for (std::size_t i = 0; i < count; ++i) all += one;
+  return all;
+}
+std::string track(const std::string& kind, const std::string& tables, const std::string& more = "") {
+  return box("trak",
+             more + box("mdia", table("hdlr", {0}, kind + std::string(13, '\0')) + box("minf", box("stbl", tables))));
+}
+std::string pictures(std::uint64_t count, const std::string& more = "") {
+  return track("vide", table("stts", {1, count, 1}) + table("stsz", {1, count}), more);
+}
+std::string film(const std::string& in_header, const std::string& behind = "") {
+  return box("ftyp", "isom") + box("moov", in_header) + behind;
+}
+const char* exceeded(const std::string& bytes) {
+  const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+  return exceededMp4Bound(ffmpeg::readable(std::span(data, bytes.size())));
+}
+
+// 12 million of them took a program 320 MB, and twenty such tracks 4.9 GB, of a file of 4 KB.
+TEST(Mp4Film, WithMoreThan8MillionSamplesIsRefusedBeforeFFmpegReadsThem) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "film.mp4";
+  test::makeClip(path, {kH264, kH264});
+  EXPECT_TRUE(makeFfmpegSource()->open(path));
+  std::string bytes = test::contentOf(path);
+  bytes.replace(bytes.find("stsz") + 8, 8, bigEndian(1) + bigEndian(9'000'000));
+  writeFile(path, bytes);
+  const Error error = openErrorOf(path);
+  EXPECT_EQ(error.code, ErrorCode::Unsupported);
+  EXPECT_THAT(error.message, HasSubstr("more than 8 million pictures"));
+}
+
+TEST(Mp4Film, SamplesOfAllTracksAndTheirEditsCountTogether) {
+  EXPECT_THAT(exceeded(film(pictures(4'000'000) + pictures(4'000'000))), IsNull());
+  EXPECT_THAT(exceeded(film(pictures(4'000'000) + pictures(4'000'001))), StrEq(ffmpeg::kTooManyMp4Samples));
+  const auto edits = [](std::size_t count) {
+    return box("edts", table("elst", {count}, repeated(bigEndian(1) + bigEndian(0) + bigEndian(0x10000), count)));
+  };
+  EXPECT_THAT(exceeded(film(pictures(7'000'000, edits(2)))), IsNull()) << "the first waits for the other track";
+  EXPECT_THAT(exceeded(film(pictures(100'000, edits(81)))), IsNull());
+  EXPECT_THAT(exceeded(film(pictures(100'000, edits(82)))), StrEq(ffmpeg::kTooManyMp4Samples));
+}
+
+TEST(Mp4Film, SoundThatIsNotCodedCountsByThePiecesThatFFmpegTakes) {
+  const auto sound = [](std::uint64_t chunks, std::uint64_t samples, const std::string& more = "") {
+    const std::uint64_t all = std::min(chunks * samples, std::uint64_t{0xFFFFFFFF});
+    return track("soun",
+                 table("stts", {1, all, 1}) + table("stsz", {4, all}) + table("stsc", {1, 1, samples, 1}) +
+                     table("stco", {chunks}, std::string(4 * chunks, '\1')),
+                 more);
+  };
+  EXPECT_THAT(exceeded(film(sound(36'000, 48'000))), IsNull()) << "ten hours";
+  EXPECT_THAT(exceeded(film(sound(100, 2'000'000'000))), StrEq(ffmpeg::kTooManyMp4Samples));
+  const std::string picture = table("hdlr", {0}, "vide" + std::string(13, '\0'));
+  EXPECT_THAT(exceeded(film(sound(36'000, 48'000, picture))), StrEq(ffmpeg::kTooManyMp4Samples));
+}
+
+TEST(Mp4Film, FragmentsTracksAndTagsAreBoundedToo) {
+  const std::string run = box("moof", box("traf", table("tfhd", {1}) + table("trun", {4'000'001})));
+  EXPECT_THAT(exceeded(film("", run)), IsNull());
+  EXPECT_THAT(exceeded(film("", run + box("mdat") + run)), StrEq(ffmpeg::kTooManyMp4Samples));
+  const std::string places = table("sidx", {1, 1000, 0, 0, 60'000});
+  EXPECT_THAT(exceeded(film("", repeated(places, 3))), IsNull());
+  EXPECT_THAT(exceeded(film("", repeated(places, 4))), StrEq(ffmpeg::kTooManyMp4Boxes));
+  EXPECT_THAT(exceeded(film(repeated(pictures(1), 1000))), IsNull());
+  EXPECT_THAT(exceeded(film(repeated(pictures(1), 1001))), StrEq(ffmpeg::kTooManyMp4Boxes));
+  const auto tags = [](std::size_t count) {
+    return box("udta", table("meta", {}, table("hdlr", {0}, "mdir") + box("ilst", repeated(box("\xA9nam"), count))));
+  };
+  EXPECT_THAT(exceeded(film(tags(4990))), IsNull());
+  EXPECT_THAT(exceeded(film(tags(5001))), StrEq(ffmpeg::kTooManyMp4Tags));
+  EXPECT_THAT(exceeded(film(repeated(box("free"), 100'001))), StrEq(ffmpeg::kTooManyMp4Boxes));
+}
+
+TEST(Mp4Film, NothingHidesInOtherHeaders) {
+  const std::string many = pictures(9'000'000), header = table("mvhd", {0}) + many;
+  EXPECT_THAT(exceeded(box("ftyp", "isom") + box("free", header)), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(box("ftyp", "isom") + repeated(box("moof"), 100) + box("moov", many)),
+              StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(bigEndian(1) + "mdat" + bigEndian(16, 8) + box("moov", many)),
+              StrEq(ffmpeg::kTooManyMp4Samples));
+  const auto packed = [](const std::string& content, std::uint64_t length) {
+    std::string stream(2 * content.size() + 100, '\0');
+    uLongf bytes = stream.size();
+    ::compress(reinterpret_cast<Bytef*>(stream.data()), &bytes, reinterpret_cast<const Bytef*>(content.data()),
+               content.size());
+    stream.resize(bytes);
+    return film(box("cmov", box("dcom", "zlib") + box("cmvd", bigEndian(length) + stream)));
+  };
+  EXPECT_THAT(exceeded(packed(pictures(100), pictures(100).size())), IsNull());
+  EXPECT_THAT(exceeded(packed(many, many.size())), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(packed(many, 4'000'000'000)), StrEq(ffmpeg::kTooLongMp4Header));
+}
+
+TEST(Mp4Film, OtherFilesAreLeftAsTheyAre) {
+  const std::string few = bigEndian(8) + std::string("\1\2\3\4", 4);
+  EXPECT_THAT(exceeded(repeated(few, 100'001)), IsNull());
+  EXPECT_THAT(exceeded(std::string(100, '\0')), IsNull());
+  EXPECT_THAT(exceeded(""), IsNull());
+  const std::string part = box("moof", box("traf", table("tfhd", {1}) + table("trun", {100'000})));
+  EXPECT_THAT(exceeded(box("styp", "msdh") + repeated(part + box("mdat"), 1000)), IsNull())
+      << "its header is elsewhere";
+}
+
+}  // namespace
+}  // namespace relievo
