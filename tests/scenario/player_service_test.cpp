@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/control_client.h"
 #include "tests/support/machine/notify_socket.h"
@@ -91,6 +92,27 @@ TEST_F(PlayerService, AfterTheFilmThatItBeganWithItWaitsForTheNext) {
   EXPECT_TRUE(program.untilState("playing"));
   program.say("quit");
   EXPECT_EQ(player.wait(), 0);
+}
+
+// Which film that will be is not known when the player starts.
+TEST_F(PlayerService, AnOutputOntoAFilmThatAProgramOpensLeavesTheFilm) {
+  test::makeClip(at("next.mkv"), {{.pix_fmt = "yuv420p", .frames = 9}, {.pix_fmt = "gray16le", .frames = 9}});
+  fs::create_hard_link(at("film.mkv"), at("run.json"));
+  fs::create_hard_link(at("next.mkv"), at("hand.csv"));
+  const std::string film = test::contentOf(at("film.mkv")), next = test::contentOf(at("next.mkv"));
+  test::Process player(words({"--report", at("run.json"), "--record", at("hand.csv")}), at("said.txt"));
+  ControlClient program(at("control"));
+  for (const char* name : {"next.mkv", "film.mkv"}) {
+    EXPECT_EQ(program.ask("open " + at(name))["ok"], true);
+    EXPECT_TRUE(program.untilState("playing"));
+  }
+  program.say("quit");
+  EXPECT_EQ(player.wait(), 2);
+  EXPECT_EQ(test::contentOf(at("run.json")), film);
+  EXPECT_EQ(test::contentOf(at("hand.csv")), next);
+  const std::string said = test::contentOf(at("said.txt"));
+  EXPECT_THAT(said, HasSubstr("run.json: is also an input and would be overwritten"));
+  EXPECT_THAT(said, HasSubstr("hand.csv: is also an input and would be overwritten"));
 }
 
 TEST_F(PlayerService, AFaultIsForMocksAlone) {

@@ -2,14 +2,34 @@
 // Checks before the film begins that the outputs can be written.
 #include "app/player/setup/play_files.h"
 
+#include <atomic>
 #include <filesystem>
+#include <set>
 #include <utility>
 
+#include "app/cli/output_guard.h"
 #include "app/cli/program.h"
+#include "app/media/folder/film_folder.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 
 namespace relievo {
+namespace {
+
+// A film that was opened while the player ran (dropped on its window, named by a program) may be the output. The end
+// does not wait for a film's file system that is silent.
+Outcome<void> keepFilmsApart(const std::string& output, const PlayReport& report) {
+  const std::atomic<bool> at_once = true;
+  const CancelsAnswers cancels(at_once);
+  std::set<std::string> films(report.films.begin(), report.films.end());
+  for (const std::string& film : report.films) films.insert(depthBeside(film));
+  films.insert(report.depth_source);
+  const auto apart = keepApart({output}, {films.begin(), films.end()});
+  if (!apart && apart.error().error.code == ErrorCode::Cancelled) return {};
+  return apart;
+}
+
+}  // namespace
 
 Outcome<void> loadPlayFiles(PlayOptions& options) {
   if (!options.keys_path.empty()) {
@@ -72,13 +92,18 @@ Outcome<PlayOutputs> makeOutputs(const PlayOptions& options) {
 int finishFiles(const PlayReport& report, PlayOutputs& outputs) {
   const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cancel writing its files
   int result = kExitDone;
-  const auto finish = [&result](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
-    if (!recorder || haptic.ticks == 0) return;
+  const auto spares = [&](const std::string& output) {
+    const auto apart = keepFilmsApart(output, report);
+    if (!apart) result = tell(apart.error());
+    return apart.has_value();
+  };
+  const auto finish = [&](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
+    if (!recorder || haptic.ticks == 0 || !spares(recorder->path())) return;
     if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
   };
   finish(outputs.recorder, report.haptic);
   if (report.second_finger) finish(outputs.second_recorder, report.second_finger->haptic);
-  if (outputs.report) {
+  if (outputs.report && spares(outputs.report->path())) {
     outputs.report->write(toJson(report));
     if (auto written = outputs.report->commit(); !written) result = tell({outputs.report->path(), written.error()});
   }
