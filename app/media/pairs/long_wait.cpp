@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/media/pairs/long_wait.h"
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
 #include "app/media/film_feed.h"
 #include "platform/log.h"
 #include "platform/print.h"
@@ -17,14 +13,15 @@ void tellWait(const char* program, const std::string& url, const std::string& de
   log(LogLevel::Warning, program, "waiting for %s (up to %.0f s)", what.c_str(), toSeconds(FilmFeed::kPatience));
 }
 
+WaitTeller::WaitTeller(const SourceOptions& source, Duration patience)
+    : thread_([this, url = source.url, depth_url = source.depth_url, patience](const std::stop_token& done) {
+        std::unique_lock lock(mutex_);
+        wake_.wait_for(lock, done, patience, [] { return false; });
+        if (!done.stop_requested()) tellWait("media", url, depth_url);
+      }) {}
+
 Result<void> openTelling(PairReader& reader, const SourceOptions& source, Duration patience) {
-  std::mutex mutex;
-  std::condition_variable_any wake;
-  const std::jthread teller([&](const std::stop_token& done) {
-    std::unique_lock lock(mutex);
-    wake.wait_for(lock, done, patience, [] { return false; });
-    if (!done.stop_requested()) tellWait("media", source.url, source.depth_url);
-  });
+  const WaitTeller teller(source, patience);
   return reader.open(source);
 }
 

@@ -162,6 +162,7 @@ Outcome<ProbeResult> probe(const SourceOptions& options, const PairReader::Backe
   const auto pair = may_be_folder ? filmOverDepth(options.url) : std::nullopt;
   for (const std::string& url : {pair ? pair->film : options.url, pair ? pair->depth : options.depth_url}) {
     if (url.empty()) continue;
+    const WaitTeller teller({.url = url});
     auto probed = readTracks(url, options.frames_per_s, backends);
     if (!probed) return std::unexpected(probed.error());
     result.tracks.insert(result.tracks.end(), probed->tracks.begin(), probed->tracks.end());

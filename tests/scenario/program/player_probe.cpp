@@ -2,14 +2,20 @@
 // What `relievo probe` prints about a source and about the plan.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/scenario/program/player_program.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/ts_patch.h"
+#include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
 
 namespace relievo::test {
@@ -123,6 +129,16 @@ TEST_F(PlayerProgram, ProbeAnnouncesThePlanOfThePlayer) {
   ASSERT_EQ(play(at("film.mkv") + " --report " + at("r.json")).exit_code, 0);
   EXPECT_EQ(said["touch"]["reason"], reportOf("r.json")["haptic"]["plan"]);
   EXPECT_EQ(said["touch"]["speed_mm_per_s"], 0) << "a cut is no motion";
+}
+
+TEST_F(PlayerProgram, ProbeSaysWhatItWaitsFor) {
+  ASSERT_EQ(::mkfifo(at("film.mkv").c_str(), 0600), 0);  // nobody writes to it
+  Process probe({RELIEVO_BIN_DIR "/relievo", "probe", at("film.mkv")}, at("said.txt"));
+  const auto said = [&] { return contentOf(at("said.txt")); };
+  while (probe.isRunning() && said().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_THAT(said(), HasSubstr("waiting for \"" + at("film.mkv") + "\" (up to 30 s)"));
+  probe.send(SIGKILL);
+  EXPECT_EQ(probe.wait(), -SIGKILL);
 }
 
 }  // namespace
