@@ -248,7 +248,7 @@ int run(Arguments& a) {
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
 
   std::vector<std::string> inputs = a.source.named_files;
-  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
+  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.depth_from});
   for (const Painting& painting : a.output.paintings) inputs.push_back(painting.path);
   if (a.source.depth_url.empty() && !a.output.from_views) inputs.push_back(depthBeside(a.source.url));
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);
