@@ -8,60 +8,14 @@
 #include "drivers/mock/mock.h"
 #include "platform/log.h"
 #include "tests/support/film/depth_frames.h"
+#include "tests/unit/player/film_screen_stage.h"
 
 namespace relievo {
 namespace {
 
-constexpr auto kMs = std::chrono::milliseconds(1);
+using test::kMs;
 
-class FilmScreenTest : public testing::Test {
- protected:
-  FilmScreenTest() { setLogLevel(LogLevel::Error); }
-  void make() {
-    screen_.reset();  // before its display
-    profile_.refresh_period = Duration(0);
-    profile_.shown = [this] {
-      ++presented_;
-      clock_.sleepUntil(clock_.now() + drawing_);
-    };
-    display_ = makeMockDisplay(profile_, clock_, cable_);
-    screen_.emplace(*display_, config_, stereo_, osd_, clock_, journal_, files_);
-    ASSERT_TRUE(screen_->open(stop_));
-  }
-  bool show() { return screen_->show({}, {}, {}, {}, {}, clock_.now()).value_or(false); }
-  // How many pictures are presented when it is asked to draw again, `later` than before.
-  int redraw(const std::optional<FingerMark>& finger, Duration later, MonotonicTime next = MonotonicTime::max()) {
-    clock_.sleepUntil(clock_.now() + later);
-    const int before = presented_;
-    EXPECT_TRUE(screen_->redraw({finger}, {}, next, clock_.now()));
-    return presented_ - before;
-  }
-  [[nodiscard]] PlayReport report() const {
-    PlayReport report;
-    screen_->describe(report);
-    return report;
-  }
-  [[nodiscard]] bool noted(const std::string& part) const {
-    for (const FaultEntry& fault : journal_.written().faults) {
-      if (fault.what.find(part) != std::string::npos) return true;
-    }
-    return false;
-  }
-
-  ManualClock clock_;
-  std::atomic<bool> stop_{false};
-  Journal journal_{clock_};
-  FileWriter files_{FileWriter::Where::AtOnce};
-  MockDisplayProfile profile_;
-  DisplayConfig config_;
-  StereoSettings stereo_;
-  std::shared_ptr<MockDisplayBench> cable_ = std::make_shared<MockDisplayBench>();
-  std::unique_ptr<Display> display_;
-  std::optional<FilmScreen> screen_;
-  int presented_ = 0;
-  bool osd_ = true;
-  Duration drawing_{0};  // of each picture
-};
+class FilmScreenTest : public test::FilmScreenStage {};
 
 struct Wish {
   StereoSignals taken;
@@ -193,70 +147,6 @@ TEST_F(FilmScreenTest, CountsWhatWasSeenAndWhatWasNot) {
   screen_->skip(3);
   EXPECT_EQ(report().frames_shown, 2U);
   EXPECT_EQ(report().frames_dropped, 4U);
-}
-
-// The display is 1280 x 720: the bar is 1200 long and begins at 40; its middle is 664 down.
-TEST_F(FilmScreenTest, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  screen_->wake(clock_.now());
-  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
-  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
-  const auto at = [&](double x, double down, bool pressed) {
-    return screen_->barAt({.across = x / 1280, .down = down, .pressed = pressed}, clock_.now());
-  };
-  EXPECT_EQ(at(340, kAbove, true), std::nullopt) << "a press on the picture";
-  EXPECT_EQ(at(340, kAbove, false), std::nullopt);
-  EXPECT_NEAR(at(340, kOnIt, false).value_or(-1), 0.25, 1e-9);
-  EXPECT_NEAR(at(340, kOnIt, true).value_or(-1), 0.25, 1e-9);
-  EXPECT_NEAR(at(940, kAbove, true).value_or(-1), 0.75, 1e-9) << "dragged, above it";
-  EXPECT_EQ(at(940, kAbove, false), std::nullopt);
-  EXPECT_EQ(at(940, kAbove, true), std::nullopt) << "another press";
-}
-
-// A notch of the wheel is told with the button up.
-TEST_F(FilmScreenTest, TheWheelOverTheBarDoesNotReleaseIt) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  screen_->wake(clock_.now());
-  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
-  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
-  const SurfaceMouse wheel{.across = 0.5, .down = kOnIt, .notches = 1};
-  const SurfaceMouse above{.across = 0.5, .down = kAbove, .notches = 1};
-  EXPECT_TRUE(screen_->isOverBar(wheel));
-  EXPECT_FALSE(screen_->isOverBar(above));
-  EXPECT_TRUE(screen_->barAt({.across = 0.5, .down = kOnIt, .pressed = true}, clock_.now()));
-  EXPECT_TRUE(screen_->isOverBar(above)) << "it is held";
-  EXPECT_TRUE(screen_->barAt({.across = 0.5, .down = kAbove, .pressed = true}, clock_.now())) << "still";
-}
-
-// The only button ends at the right margin; its word is in the title's place, since there is no title.
-TEST_F(FilmScreenTest, AButtonOfTheBarIsUnderTheMouseOnlyWhileTheBarIsShown) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  const SurfaceMouse on{.across = 1225.0 / 1280, .down = 600.0 / 720}, beside{.across = 0.5, .down = 600.0 / 720};
-  EXPECT_EQ(screen_->buttonAt(on), std::nullopt);
-  screen_->wake(clock_.now());
-  screen_->write({.duration_s = 100, .buttons = {PlayerVerb::FullScreen}}, MonotonicTime::max(), clock_.now());
-  EXPECT_EQ(screen_->buttonAt(on), PlayerVerb::FullScreen);
-  EXPECT_EQ(screen_->buttonAt(beside), std::nullopt);
-  EXPECT_EQ(screen_->barAt(on, clock_.now()), std::nullopt) << "no place of the film";
-  EXPECT_TRUE(screen_->isOverBar(beside)) << "the wheel over the words is the volume, too";
-}
-
-TEST_F(FilmScreenTest, AFilmWithoutALengthHasABarForTheWheel) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  screen_->wake(clock_.now());
-  const SurfaceMouse mouse{.across = 0.5, .down = 664.0 / 720, .notches = 1};
-  EXPECT_FALSE(screen_->isOverBar(mouse)) << "it is not shown yet";
-  screen_->write({}, MonotonicTime::max(), clock_.now());
-  EXPECT_TRUE(screen_->isOverBar(mouse));
-  EXPECT_EQ(screen_->barAt({.across = 0.5, .down = 664.0 / 720}, clock_.now()), std::nullopt);
 }
 
 TEST_F(FilmScreenTest, WithoutAScreenItGoesOnAndSaysSo) {
