@@ -183,18 +183,20 @@ void Player::beginScene(MonotonicTime now) {
   if (config_.volume && scene_turns_ % 2 != 0) std::swap(volume.width_mm, volume.height_mm);
   const DepthCalibration& calibration = film_.info().calibration.calibration;
   touch_.setScene(calibration, volume, film_.info().material, film_.info().material_scale);
-  screen_.setScene(calibration, volume, film_.period(), now);
+  screen_.setScene(calibration, volume, scene_turns_ % 2 != 0, film_.period(), now);
   announce(volume);
 }
 
-// The force begins anew on the surface that is turned.
+// The force begins anew on the surface that is turned. While the picture is waited for, it does so in `begin`.
 void Player::turnPicture(int quarters, MonotonicTime now) {
   touch_.rest();
   film_.turn(quarters);
-  if (state_ != PlayerState::Playing && state_ != PlayerState::Paused) return;  // `begin` does the rest
+  if (!film_.begun()) return;
   beginScene(now);
-  if (film_.takeJump()) touch_.beginEpoch();
-  showPicture(now);
+  const bool goes = state_ == PlayerState::Playing || state_ == PlayerState::Paused;
+  if (goes && film_.takeJump()) touch_.beginEpoch();
+  const auto shown = screen_.showTurned(film_.picture(), film_.goal(now), film_.coming(), marks(), now);
+  if (!shown) failDrawing(shown.error());
 }
 
 // Does not mention a missing device, or one without anything to feel.
@@ -235,10 +237,9 @@ void Player::followDevice() {
 }
 
 void Player::showPicture(MonotonicTime now) {
-  const bool is_new = film_.hasNewPicture();  // else it was turned
   const auto seen = screen_.show(film_.picture(), film_.goal(now), film_.late(now), film_.coming(), marks(), now);
   if (!seen) failDrawing(seen.error());
-  else if (*seen && is_new) film_.noteShown();
+  else if (*seen) film_.noteShown();
 }
 
 void Player::redraw(const FingerMarks& fingers, MonotonicTime next_picture, MonotonicTime now) {

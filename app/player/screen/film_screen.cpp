@@ -55,12 +55,13 @@ Result<void> FilmScreen::attend(MonotonicTime now) {
   return {};
 }
 
-void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period,
-                          MonotonicTime now) {
+void FilmScreen::setScene(const DepthCalibration& calibration, const DisplayVolume& volume, bool on_side,
+                          Duration period, MonotonicTime now) {
   calibration_ = calibration;
   jump();
   picture_.setScene(calibration, volume, fromSeconds(kDrawShare * toSeconds(period)));
-  picture_.setAspect(parseAspect(aspect_word_).value_or(0));  // in this film's shape
+  on_side_ = on_side;
+  applyAspect();
   text_.wake(now);
 }
 
@@ -80,6 +81,14 @@ Result<bool> FilmScreen::show(const FramePair& pair, MediaTime place, std::optio
     if (!first_hint_.empty()) text_.hint(first_hint_, *first_shown_);
   }
   return true;
+}
+
+Result<void> FilmScreen::showTurned(const FramePair& pair, MediaTime place, const DepthComing& coming,
+                                    const FingerMarks& fingers, MonotonicTime now) {
+  picture_.setPair(pair, place);
+  lookAhead(pair.depth, coming);
+  const auto drawn = draw(fingers, now);
+  return drawn ? Result<void>{} : std::unexpected(drawn.error());
 }
 
 Result<void> FilmScreen::redraw(const FingerMarks& fingers, MediaTime place, MonotonicTime next_picture,
@@ -197,7 +206,12 @@ void FilmScreen::obey(const PlayerCommand& command) {
 void FilmScreen::changeAspect(const std::string& word) {
   constexpr std::array kWords{"film", "16:9", "4:3", "2.35:1"};
   aspect_word_ = word.empty() ? kWords[++next_aspect_ % kWords.size()] : word;
-  picture_.setAspect(parseAspect(aspect_word_).value_or(0));
+  applyAspect();
+}
+
+void FilmScreen::applyAspect() noexcept {
+  const double aspect = parseAspect(aspect_word_).value_or(0);
+  picture_.setAspect(on_side_ && aspect > 0 ? 1 / aspect : aspect);
 }
 
 std::optional<double> FilmScreen::barAt(const SurfaceMouse& mouse, MonotonicTime now) {

@@ -41,8 +41,10 @@ class FilmScreen {
   // Once a round. Cancelled if the viewer has closed the window.
   [[nodiscard]] Result<void> attend(MonotonicTime now);
 
-  // A film begins: sets how to read its depth, the volume that it fills, and its frame period.
-  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, Duration period, MonotonicTime now);
+  // A film begins, or is turned: sets how to read its depth, the volume that it fills, and its frame period.
+  // `on_side`: turned by 90 or 270 degrees; a shape that the viewer has chosen is that of the film before it is turned.
+  void setScene(const DepthCalibration& calibration, const DisplayVolume& volume, bool on_side, Duration period,
+                MonotonicTime now);
   // To be shown with the first picture of all: what a viewer can do.
   void setFirstHint(std::string words) { first_hint_ = std::move(words); }
   void announce(const AnnouncedFilm& film) { picture_.announce(film); }
@@ -52,6 +54,9 @@ class FilmScreen {
   // picture counts as dropped.
   [[nodiscard]] Result<bool> show(const FramePair& pair, MediaTime place, std::optional<Duration> late,
                                   const DepthComing& coming, const FingerMarks& fingers, MonotonicTime now);
+  // The same for a picture that `show` has shown before it was turned: it is not counted again.
+  [[nodiscard]] Result<void> showTurned(const FramePair& pair, MediaTime place, const DepthComing& coming,
+                                        const FingerMarks& fingers, MonotonicTime now);
   // The subtitles of a film; see Picture.
   [[nodiscard]] SubtitleWords& subtitles() noexcept { return picture_.subtitles(); }
   [[nodiscard]] const SubtitleWords& subtitles() const noexcept { return picture_.subtitles(); }
@@ -116,6 +121,7 @@ class FilmScreen {
   void writeScreenshot(MonotonicTime now);
   void noteSaved(MonotonicTime now);
   void changeAspect(const std::string& word);
+  void applyAspect() noexcept;
   void noteMissing(char32_t letter);
   void noteLost();
 
@@ -136,6 +142,7 @@ class FilmScreen {
   ScreenRows statistics_;
   std::string aspect_word_ = "film";
   std::size_t next_aspect_ = 0;
+  bool on_side_ = false;
   bool drags_bar_ = false;
   bool redraw_ = false;  // true: redraw even if no finger has moved
   std::uint64_t shown_ = 0, dropped_ = 0;

@@ -4,6 +4,8 @@
 #include <linux/input-event-codes.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "tests/scenario/film/player_transport.h"
 
@@ -26,13 +28,27 @@ class PlayerTurn : public PlayerTransport {
     EXPECT_EQ(bench_.report.haptic.contact_ticks > 100, touched) << bench_.report.haptic.contact_ticks;
     EXPECT_NEAR(bench_.report.volume.width_mm, 160, 1e-9);
     EXPECT_NEAR(bench_.report.volume.height_mm, height_mm, 1e-9);
-    EXPECT_EQ(bench_.report.frames_shown, 100U + static_cast<unsigned>(presses)) << "each turn is shown at once";
+    EXPECT_EQ(bench_.report.frames_shown, 100U) << "a turn is no new picture";
+  }
+  // When the screen was told of the film, and its shape at that time.
+  void noteShapes() {
+    bench_.display.announced = [this](const AnnouncedFilm& film) {
+      shapes_.emplace_back(toSeconds(bench_.clock.now().time_since_epoch()),
+                           static_cast<double>(film.width) / film.height);
+    };
+  }
+  void expectTurnedAt(double seconds, std::size_t time, double shape) const {
+    ASSERT_GT(shapes_.size(), time);
+    EXPECT_NEAR(shapes_[time].first, seconds, 0.1);
+    EXPECT_NEAR(shapes_[time].second, shape, 0.05);
   }
   void playsTurned() {
     playsWell();
     EXPECT_GT(bench_.report.haptic.contact_ticks, 100U);
     EXPECT_NEAR(bench_.report.volume.height_mm, 160 * 32 / 24.0, 1e-9);
   }
+
+  std::vector<std::pair<double, double>> shapes_;
 };
 
 TEST_F(PlayerTurn, TheFingerFeelsThePictureAsItIsTurned) {
@@ -68,6 +84,40 @@ TEST_F(PlayerTurn, WorksWhileAFilmIsSought) {
   bench_.press(0.5, KEY_R);
   bench_.press(4.0, KEY_STOP);
   playsTurned();
+}
+
+// The source is away from 10 s on; the seek waits, too.
+TEST_F(PlayerTurn, WhileAFilmWaitsForItsSourceItsPictureIsTurnedAtOnce) {
+  bench_.sources["film"].tracks[0].frames = bench_.sources["film"].tracks[1].frames = 1000;
+  bench_.sources["film"].remote = true;
+  bench_.sources["film"].lose_after_packets = 500;
+  MockMediaProfile away = bench_.sources["film"];
+  away.fail_open = ErrorCode::Io;
+  bench_.found_again = {away};
+  noteShapes();
+  bench_.press(15.0, KEY_R);
+  bench_.press(20.0, KEY_LEFT);
+  bench_.press(24.0, KEY_R);
+  bench_.press(30.0, KEY_STOP);
+  playsWell();
+  EXPECT_EQ(bench_.states(), "boot idle opening buffering playing buffering seeking buffering idle");
+  expectTurnedAt(15, 1, 0.75);
+  expectTurnedAt(24, 2, 4.0 / 3);
+  EXPECT_EQ(bench_.report.frames_shown, 249U) << "those before";
+}
+
+// A photo, which stands; then paused.
+TEST_F(PlayerTurn, OfAPhotoIsShownAtOnce) {
+  bench_.sources["film"].tracks[0].frames = bench_.sources["film"].tracks[1].frames = 1;
+  noteShapes();
+  bench_.press(2.0, KEY_R);
+  bench_.press(3.0, KEY_PAUSE);
+  bench_.press(4.0, KEY_R);
+  bench_.press(5.0, KEY_STOP);
+  playsWell();
+  expectTurnedAt(2, 1, 0.75);
+  expectTurnedAt(4, 2, 4.0 / 3);
+  EXPECT_EQ(bench_.report.frames_shown, 1U);
 }
 
 TEST_F(PlayerTurn, ALiveFilmGoesOnTurned) {

@@ -89,7 +89,7 @@ TEST_F(SubtitlesOfAStandingPicture, StandInFrontOfTheirOwnFilmAlone) {
     };
     DepthComing coming{.count = width_mm == 160 ? 8U : 0U};
     for (int k = 0; k < 8; ++k) coming.frames[static_cast<std::size_t>(k)] = depth(k + 1);
-    screen_.setScene({.bits = 8}, {width_mm, 90, 40}, 40 * kMs, clock_.now());
+    screen_.setScene({.bits = 8}, {width_mm, 90, 40}, false, 40 * kMs, clock_.now());
     EXPECT_TRUE(screen_.show({.color = depth(0), .depth = depth(0)}, mediaTime(2.5), {}, coming, {}, clock_.now()));
     EXPECT_TRUE(hasWords());
   }

@@ -200,11 +200,30 @@ TEST_F(FilmScreenTest, CarriesTheCommandsOutThatAreItsOwn) {
 
 TEST_F(FilmScreenTest, TheShapeThatTheViewerChoseIsThatOfTheNextFilmToo) {
   make();
-  screen_->setScene({}, {.width_mm = 160, .height_mm = 90, .depth_mm = 40}, 40 * kMs, clock_.now());
+  screen_->setScene({}, {.width_mm = 160, .height_mm = 90, .depth_mm = 40}, false, 40 * kMs, clock_.now());
   screen_->obey({.verb = PlayerVerb::Aspect, .value = 0, .word = "4:3"});
   EXPECT_NEAR(screen_->stereo().stretch, 0.75, 1e-9);
-  screen_->setScene({}, {.width_mm = 120, .height_mm = 90, .depth_mm = 40}, 40 * kMs, clock_.now());
+  screen_->setScene({}, {.width_mm = 120, .height_mm = 90, .depth_mm = 40}, false, 40 * kMs, clock_.now());
   EXPECT_NEAR(screen_->stereo().stretch, 1.0, 1e-9);
+}
+
+TEST_F(FilmScreenTest, TheShapeThatTheViewerChoseIsTurnedWithTheFilm) {
+  make();
+  screen_->setScene({}, {.width_mm = 160, .height_mm = 120, .depth_mm = 40}, false, 40 * kMs, clock_.now());
+  screen_->obey({.verb = PlayerVerb::Aspect, .value = 0, .word = "16:9"});
+  EXPECT_NEAR(screen_->stereo().stretch, 4.0 / 3, 1e-9);
+  screen_->setScene({}, {.width_mm = 120, .height_mm = 160, .depth_mm = 40}, true, 40 * kMs, clock_.now());
+  EXPECT_NEAR(screen_->stereo().stretch, 3.0 / 4, 1e-9) << "9:16";
+  screen_->obey({.verb = PlayerVerb::Aspect, .value = 0, .word = "film"});
+  EXPECT_NEAR(screen_->stereo().stretch, 1, 1e-9);
+}
+
+TEST_F(FilmScreenTest, APictureThatWasTurnedIsNotCountedAgain) {
+  make();
+  ASSERT_TRUE(show());
+  EXPECT_TRUE(screen_->showTurned({}, {}, {}, {}, clock_.now()));
+  EXPECT_EQ(report().frames_shown, 1U);
+  EXPECT_EQ(presented_, 2);
 }
 
 TEST_F(FilmScreenTest, AWindowThatTheViewerClosesIsNoFault) {
