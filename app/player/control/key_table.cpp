@@ -52,6 +52,15 @@ constexpr std::array kTwins{
     Twin{BTN_DPAD_RIGHT, KEY_RIGHT},
 };
 
+// The signs that Shift makes on a keyboard of the USA, where they have a key of their own in the table.
+constexpr std::array kShiftedSigns{Twin{KEY_3, KEY_NUMERIC_POUND}, Twin{KEY_SLASH, KEY_QUESTION},
+                                   Twin{KEY_COMMA, KEY_PREVIOUS}, Twin{KEY_DOT, KEY_NEXT}};
+
+std::uint16_t signOf(std::uint16_t code) noexcept {
+  const auto sign = std::ranges::find(kShiftedSigns, code ^ kWithShift, &Twin::code);
+  return sign == kShiftedSigns.end() ? code : sign->of;
+}
+
 std::uint16_t twinOf(std::uint16_t code) noexcept {
   const auto twin = std::ranges::find(kTwins, code, &Twin::code);
   return twin == kTwins.end() ? code : twin->of;
@@ -177,8 +186,8 @@ const KeyTable::Binding* KeyTable::find(PlayerState state, std::uint16_t code) c
   const std::uint16_t alone = withoutShiftAndCtrl(code);
   const auto without_shift = static_cast<std::uint16_t>(code & ~kWithShift);          // Ctrl and + is Ctrl, Shift and =
   const bool is_sign = (code & kWithShift) != 0 && alone >= KEY_1 && alone <= KEY_0;  // "&" is not 7, nor is "(" 9
-  const std::array likely{code, without_shift, alone, twinOf(alone)};
-  for (const std::uint16_t known : std::span(likely).first(is_sign ? 1 : likely.size())) {
+  const std::array likely{code, signOf(code), without_shift, alone, twinOf(alone)};
+  for (const std::uint16_t known : std::span(likely).first(is_sign ? 2 : likely.size())) {
     for (const std::size_t table : {static_cast<std::size_t>(state), kAlways}) {
       if (const Binding* binding = row(table, known)) return binding->press || binding->hold ? binding : nullptr;
     }

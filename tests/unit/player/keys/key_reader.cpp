@@ -50,6 +50,7 @@ TEST_F(KeyReaderTest, ShiftAndCtrlMakeAnotherKeyWhereTheTableHasIt) {
   EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Press, 500), "-");
   EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 550), "audio-delay +0.1");
   EXPECT_EQ(take(KEY_KPPLUS, Action::Repeat, 900), "audio-delay +0.1");
+  EXPECT_EQ(take(KEY_W, Action::Press, 910), "quit");
   EXPECT_EQ(take(KEY_RIGHTCTRL, Action::Release, 950), "-");
   EXPECT_EQ(take(KEY_KPPLUS, Action::Press, 990), "volume +5");
 }
@@ -67,6 +68,22 @@ TEST_F(KeyReaderTest, KeysWithShiftAreMpvs) {
   EXPECT_EQ(take(KEY_DOWN, Action::Press, 80), "seek -5");
   EXPECT_EQ(take(KEY_PAGEUP, Action::Press, 90), "seek +600");
   EXPECT_EQ(take(KEY_PAGEDOWN, Action::Press, 100), "seek -600");
+}
+
+// The window and the terminal hear signs; the kernel's events are positions.
+TEST_F(KeyReaderTest, ASignThatShiftMakesInTheUsaIsItsKey) {
+  EXPECT_EQ(take(KEY_COMMA, Action::Press, 0), "step-back");
+  EXPECT_EQ(take(KEY_LEFTSHIFT, Action::Press, 10), "-");
+  EXPECT_EQ(take(KEY_3, Action::Press, 20), "audio");         // #
+  EXPECT_EQ(take(KEY_SLASH, Action::Press, 30), "keys");      // ?
+  EXPECT_EQ(take(KEY_COMMA, Action::Press, 40), "previous");  // <
+  EXPECT_EQ(take(KEY_DOT, Action::Press, 50), "next");        // >
+  EXPECT_EQ(take(KEY_7, Action::Press, 70), "-") << "& is not 7";
+  const auto own = KeyTable::parse("[always]\nSHIFT_3 = \"mute\"\n", "keys");
+  ASSERT_TRUE(own);
+  reader_ = KeyReader(*own);
+  EXPECT_EQ(take(KEY_RIGHTSHIFT, Action::Press, 80), "-");
+  EXPECT_EQ(take(KEY_3, Action::Press, 90), "mute") << "the viewer's own row";
 }
 
 // On most keyboards + is on = with Shift.
