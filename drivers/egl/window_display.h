@@ -49,6 +49,7 @@ class WindowDisplay final : public Display {
   [[nodiscard]] static int trueWidth() noexcept;
   [[nodiscard]] static int trueHeight() noexcept;
   void followFullScreen();
+  void followPlace() noexcept;
   void fillByHand() noexcept;
   void leaveByHand() noexcept;
 
@@ -76,6 +77,7 @@ class WindowDisplay final : public Display {
   WindowMouse mouse_;
   int mouse_x_ = 0, mouse_y_ = 0;
   MonotonicTime shown_at_;                                    // the last frame
+  MonotonicTime placed_at_;                                   // the last event of the window's place, size or focus
   MonotonicTime hand_seen_;                                   // when the mouse was used
   std::array<std::uint16_t, SDL_NUM_SCANCODES> held_keys_{};  // the code of each, by scancode
   bool press_taken_ = false;                                  // by what is drawn over the picture

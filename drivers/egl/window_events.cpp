@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "drivers/egl/window_display.h"
 #include "drivers/egl/window_keys.h"
@@ -42,6 +43,7 @@ Result<bool> WindowDisplay::attendScreen() {
     if (void* owner = SDL_GetWindowData(window, kWindowOwner)) static_cast<WindowDisplay*>(owner)->hear(event);
   }
   followFullScreen();
+  followPlace();
   if (clock_.now() > hand_seen_ + kPointerShown) SDL_ShowCursor(SDL_DISABLE);
   if (clock_.now() > shown_at_ + kStill) SDL_EnableScreenSaver();
   if (closed_by_viewer_) return fail(ErrorCode::Cancelled, "the viewer has closed the window");
@@ -75,15 +77,24 @@ void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
   if (event.event == SDL_WINDOWEVENT_FOCUS_GAINED) input_->focused = true;
   if (event.event == SDL_WINDOWEVENT_FOCUS_LOST) input_->focused = false;
-  if (event.event == SDL_WINDOWEVENT_MOVED && SDL_GetMouseFocus() == window_) {  // the mouse itself tells nothing then
-    int x = 0, y = 0;
-    SDL_GetGlobalMouseState(&x, &y);
-    moveMouse(x - event.data1, y - event.data2);
-  }
+  placed_at_ = clock_.now();
   if (event.event == SDL_WINDOWEVENT_RESIZED && !fillsScreen()) film_size_ = false;  // by the viewer, or the desktop
   if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
   redraw_ = true;
   publishMouse();
+}
+
+// A mouse at rest tells nothing when the window moves beneath it. SDL does not tell of a move of its own, and the
+// desktop may move the window once more.
+void WindowDisplay::followPlace() noexcept {
+  constexpr Duration kSettles = std::chrono::seconds(1);
+  const char* const driver = SDL_GetCurrentVideoDriver();  // on Wayland no window knows its place
+  if (clock_.now() > placed_at_ + kSettles || SDL_GetMouseFocus() != window_) return;
+  if (driver == nullptr || std::string_view(driver) != "x11") return;
+  int x = 0, y = 0, left = 0, top = 0;
+  SDL_GetGlobalMouseState(&x, &y);
+  SDL_GetWindowPosition(window_, &left, &top);
+  if (x - left != mouse_x_ || y - top != mouse_y_) moveMouse(x - left, y - top);
 }
 
 void WindowDisplay::hearDrop(const SDL_DropEvent& event) {

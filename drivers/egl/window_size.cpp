@@ -110,6 +110,7 @@ void WindowDisplay::takeSize(int width, int height) noexcept {
   if (by_hand_) return;
   SDL_SetWindowSize(window_, width, height);
   SDL_SetWindowPosition(window_, x, y);
+  placed_at_ = clock_.now();
 }
 
 }  // namespace relievo

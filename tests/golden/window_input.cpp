@@ -173,6 +173,28 @@ TEST_F(WindowDisplay, TheMouseIsToldByWhatItPointsAt) {
   }
 }
 
+// It lies at (200, 190) first, and then around the same middle at (120, 90).
+TEST_F(WindowDisplay, AMouseAtRestIsWhereTheWindowComesToLieBeneathIt) {
+  const auto input = std::make_shared<WindowInput>();
+  const auto other = makeWindowDisplay(input, clock_);
+  screen_->moveMouse(250, 230);
+  ASSERT_TRUE(other->open({.width = 64, .height = 64, .film_size = true}));
+  const auto isAfter = [&](int width, int height, glm::dvec2 at_mm) {
+    other->announce({"film", width, height});
+    EXPECT_TRUE(other->beginFrame() && other->present());
+    other->setViews({.views = {{.half_width_mm = 0.5 * width, .half_height_mm = 0.5 * height}}});
+    std::optional<SceneRay> ray;
+    return until([&] {
+      EXPECT_TRUE(other->attend());
+      input->mouse.refresh();
+      ray = input->mouse.front().ray;
+      return ray && glm::distance(ray->screen_mm, at_mm) < 1e-9;
+    });
+  };
+  EXPECT_TRUE(isAfter(240, 100, {50.5 - 120, 50 - 40.5}));
+  EXPECT_TRUE(isAfter(400, 300, {130.5 - 200, 150 - 140.5}));
+}
+
 TEST_F(WindowDisplay, ThePointerIsSeenWhileTheMouseMoves) {
   const auto seen = [&] {
     EXPECT_TRUE(display_->attend());
