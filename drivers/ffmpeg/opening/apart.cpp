@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/ffmpeg/opening/apart.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -47,12 +47,12 @@ void run(Call& call) {
 
 // False: it does not end in time.
 bool waitFor(Call& call, const std::function<bool()>& gives_up) {
-  std::optional<Steady::time_point> told;
+  constexpr auto kNever = Steady::time_point::max();
+  auto until = kNever;
   std::unique_lock lock(call.mutex);
-  while (!call.ended && (!told || Steady::now() < *told + kGrace)) {
+  while (!call.ended && Steady::now() < until) {
     call.has_ended.wait_for(lock, kLook);
-    if (!gives_up()) told.reset();
-    else if (!told) told = Steady::now();
+    until = gives_up() ? std::min(until, Steady::now() + kGrace) : kNever;
   }
   call.left = !call.ended;
   if (call.left) ++left_behind;
