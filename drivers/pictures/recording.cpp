@@ -256,11 +256,12 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   const auto firstOf = [](const PictureFiles& files, const Series& series) {
     return series.empty() ? "" : files.folder + files.names[series.front().place];
   };
-  const auto known =
-      counted ? rateOf(firstOf(found.color, timing.color), firstOf(found.depth, timing.depth)) : std::nullopt;
+  const double known =
+      counted ? rateOf(firstOf(found.color, timing.color), firstOf(found.depth, timing.depth)).value_or(kUsualRate)
+              : kUsualRate;
   const bool unrelated = both && timing.kind == NameKind::Ranks && (timing.far || areUnrelated(found.color.names));
-  const bool photos = both && !found.views && (unrelated || known == 0.0);
-  const double usual = known.value_or(0) > 0 ? *known : kUsualRate;
+  const bool photos = both && !found.views && (unrelated || known == 0);
+  const double usual = known > 0 ? known : kUsualRate;
   const double rate = frames_per_s.value_or(photos ? kPhotoRate : usual);
   const std::int64_t first = (timing.color.empty() ? timing.depth : timing.color).front().value;
   const double period_ns = counted ? 1e9 / rate : 1;
