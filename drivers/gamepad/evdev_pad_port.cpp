@@ -24,6 +24,10 @@ constexpr const char* kNoPad =
     "no gamepad, joystick or wheel with force feedback was found; plug one in, or give its path: "
     "gamepad:/dev/input/eventN";
 
+constexpr const char* kNoForce =
+    "the gamepad here has no force feedback that its driver knows of; plug it in by USB, or switch it to XInput (X "
+    "instead of D), or take another";
+
 constexpr const char* kTaken =
     "the gamepad is already a finger, or another program has it for itself; plug in another one, or end that program";
 
@@ -73,7 +77,7 @@ class EvdevPadPort final : public PadPort {
   explicit EvdevPadPort(std::string path) : path_(std::move(path)) {}
 
   Result<PadFacts> open() override {
-    taken_ = false;
+    taken_ = forceless_ = false;
     auto facts = path_.empty() ? openFirst() : openPath();
     if (facts) listing_.put(fd_.get(), facts->forces.has(FF_AUTOCENTER));
     return facts;
@@ -124,7 +128,8 @@ class EvdevPadPort final : public PadPort {
       return fail(ErrorCode::NotFound, "there is no such gamepad; ls /dev/input lists the devices", node.error);
     if (auto facts = take(node)) return std::move(*facts);
     if (taken_) return fail(ErrorCode::NotFound, kTaken);
-    return fail(ErrorCode::Unsupported, "this input device has no stick or no force feedback; choose another");
+    if (forceless_) return fail(ErrorCode::Unsupported, kNoForce);
+    return fail(ErrorCode::Unsupported, "this input device is no gamepad; relievo devices lists those that are");
   }
 
   Result<PadFacts> openFirst() {
@@ -136,12 +141,13 @@ class EvdevPadPort final : public PadPort {
     }
     if (taken_) return fail(ErrorCode::NotFound, kTaken);
     if (refused) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
-    return fail(ErrorCode::NotFound, kNoPad);
+    return fail(ErrorCode::NotFound, forceless_ ? kNoForce : kNoPad);
   }
 
   // Keeps it open if it is a pad that is free.
   std::optional<PadFacts> take(Opened& node) {
     auto facts = node.fd.valid() ? ask(node.fd.get()) : std::nullopt;
+    forceless_ = forceless_ || (facts && isPadWithoutForce(*facts));
     if (!facts || !isPad(*facts)) return std::nullopt;
     taken_ = !takeNode(node.fd.get());
     if (taken_) return std::nullopt;
@@ -159,7 +165,9 @@ class EvdevPadPort final : public PadPort {
   std::string path_;
   UniqueFd fd_;
   PadListing listing_;
-  bool taken_ = false;  // by another finger: a pad that `open` has found
+  // What `open` has found:
+  bool taken_ = false;      // a pad that is another finger's
+  bool forceless_ = false;  // a pad without force feedback
 };
 
 std::string stateOf(const PadFacts& facts) {
@@ -182,14 +190,15 @@ std::unique_ptr<PadPort> makeEvdevPadPort(std::string path) {
 
 std::vector<PadSeen> lookAtGamepads() {
   std::vector<PadSeen> seen;
-  bool refused = false;
   for (const EventNode& node : listEventNodes()) {
     const Opened opened = openNode(node.path);
-    refused = refused || (opened.error == EACCES && mayBePad(node.path));
+    if (opened.error == EACCES && mayBePad(node.path)) seen.push_back({node.path, false, kNoRight});
     const auto facts = opened.fd.valid() ? ask(opened.fd.get()) : std::nullopt;
-    if (facts && isPad(*facts)) seen.push_back({node.path, true, stateOf(*facts)});
+    if (!facts) continue;
+    if (isPad(*facts)) seen.push_back({node.path, true, stateOf(*facts)});
+    else if (isPadWithoutForce(*facts)) seen.push_back({node.path, false, facts->name + ": " + kNoForce});
   }
-  if (seen.empty()) seen.push_back({"", false, refused ? kNoRight : kNoPad});
+  if (seen.empty()) seen.push_back({"", false, kNoPad});
   return seen;
 }
 

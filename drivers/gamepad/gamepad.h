@@ -31,7 +31,8 @@ struct GamepadConfig {
 // `path`: see makeEvdevPadPort.
 [[nodiscard]] std::unique_ptr<HapticDevice> makeGamepad(std::string path, Clock& clock);
 
-// Each device that could be used, and what it can do; or why none can be used, with an empty path.
+// Each gamepad, joystick and wheel, with what it can do, or why it cannot be used; if there is none, that, with an
+// empty path.
 struct PadSeen {
   std::string path;
   bool there = false;

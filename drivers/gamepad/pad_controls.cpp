@@ -25,12 +25,25 @@ bool hasWheelsAxes(const PadFacts& facts) noexcept {
   return x.minimum != y.minimum || x.maximum != y.maximum;
 }
 
+bool hasStick(const PadFacts& facts) noexcept {
+  const input_absinfo& x = facts.ranges[ABS_X];
+  return facts.axes.has(ABS_X) && x.minimum < x.maximum;
+}
+
+bool hasForce(const PadFacts& facts) noexcept {
+  const bool pushes = facts.forces.has(FF_RUMBLE) || facts.forces.has(FF_CONSTANT) || facts.forces.has(FF_SPRING);
+  return pushes && facts.effects_at_once > 0;
+}
+
 }  // namespace
 
 bool isPad(const PadFacts& facts) noexcept {
-  const input_absinfo& x = facts.ranges[ABS_X];
-  const bool pushes = facts.forces.has(FF_RUMBLE) || facts.forces.has(FF_CONSTANT) || facts.forces.has(FF_SPRING);
-  return pushes && facts.effects_at_once > 0 && facts.axes.has(ABS_X) && x.minimum < x.maximum;
+  return hasStick(facts) && hasForce(facts);
+}
+
+bool isPadWithoutForce(const PadFacts& facts) noexcept {
+  const bool buttons = facts.keys.has(BTN_GAMEPAD) || facts.keys.has(BTN_JOYSTICK) || facts.keys.has(BTN_WHEEL);
+  return buttons && hasStick(facts) && !hasForce(facts);
 }
 
 double PadControls::Axis::share() const RELIEVO_RT {

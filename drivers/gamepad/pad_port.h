@@ -71,5 +71,7 @@ class PadPort {
 
 // Whether it has a stick and a kind of force that this driver uses.
 [[nodiscard]] bool isPad(const PadFacts& facts) noexcept;
+// Whether it is a gamepad, a joystick or a wheel that lacks only such a force.
+[[nodiscard]] bool isPadWithoutForce(const PadFacts& facts) noexcept;
 
 }  // namespace relievo

@@ -187,11 +187,28 @@ TEST_F(GamepadUinput, TheListSaysWhatEachCanDoAndWhatIsMissing) {
   if (child == 0) {  // a user without permission for the device
     const bool dropped = ::setgid(65534) == 0 && ::setuid(65534) == 0;
     const auto refused = lookAtGamepads();
-    ::_exit(dropped && !refused[0].there && refused[0].state.find("group input") != std::string::npos ? 0 : 1);
+    const bool told = !refused[0].there && refused[0].state.find("group input") != std::string::npos;
+    ::_exit(dropped && told && refused[0].path == wheel.node() ? 0 : 1);
   }
   int status = 0;
   ::waitpid(child, &status, 0);
   EXPECT_EQ(status, 0);
+}
+
+TEST_F(GamepadUinput, APadWithoutForceFeedbackIsNamedWithWhatToDo) {
+  PadFacts facts = test::xboxPad();
+  facts.effects_at_once = 0;
+  const UinputPad pad(facts);
+  const auto seen = lookAtGamepads();
+  ASSERT_EQ(seen.size(), 1U);
+  EXPECT_EQ(seen[0].path, pad.node());
+  EXPECT_FALSE(seen[0].there);
+  EXPECT_THAT(seen[0].state, testing::AllOf(testing::HasSubstr("no force feedback"), testing::HasSubstr("XInput")));
+  for (const std::string& path : {std::string(), pad.node()}) {
+    const auto opened = makeGamepad(path, clock_)->open();
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, testing::HasSubstr("XInput")) << path;
+  }
 }
 
 }  // namespace

@@ -93,5 +93,19 @@ TEST(RealPads, EachPlaysWithWhatItHas) {
   }
 }
 
+TEST(Pads, AGamepadWithoutForceFeedbackIsToldFromWhatIsNone) {
+  PadFacts silent = test::xboxPad();
+  EXPECT_FALSE(isPadWithoutForce(silent));
+  silent.effects_at_once = 0;
+  EXPECT_TRUE(isPadWithoutForce(silent));
+  PadFacts plain = test::wheel();
+  plain.forces = {};
+  EXPECT_TRUE(isPadWithoutForce(plain));
+  PadFacts screen = test::padFacts({}, {BTN_TOUCH});
+  test::addAxis(screen, ABS_X, 0, 4095, 0);
+  EXPECT_FALSE(isPadWithoutForce(screen));
+  EXPECT_FALSE(isPadWithoutForce(test::padFacts({}, {BTN_TRIGGER}))) << "a throttle without a stick";
+}
+
 }  // namespace
 }  // namespace relievo
