@@ -2,7 +2,6 @@
 // A cell for each scenario and challenger.
 #include "app/lab/scenario/verdict_table.h"
 
-#include "app/lab/chart/csv_table.h"
 #include "app/lab/film/parallel.h"
 #include "platform/print.h"
 
@@ -24,12 +23,25 @@ std::size_t VerdictTable::passed(std::size_t challenger) const {
   return passed;
 }
 
-Outcome<void> VerdictTable::write(const std::string& path, const char* who) const {
-  CsvTable table({"scenario", who, "pass", "figure", "unit", "limit", "why", "origin"});
+Outcome<void> VerdictTable::write(const std::string& path, const char* who, const More& more) const {
+  std::vector<Cell> header{"scenario", who, "pass", "figure", "unit", "limit", "why", "origin"};
+  header.insert(header.end(), more.header.begin(), more.header.end());
+  CsvTable table(header);
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+    const std::size_t scenario = i / challengers_.size(), challenger = i % challengers_.size();
     const Verdict& v = verdicts_[i];
-    table.row({scenarios()[i / challengers_.size()].name, challengers_[i % challengers_.size()].name, v.pass ? 1 : 0,
-               v.figure, v.limit.unit, v.limit.value, v.why, v.limit.origin});
+    std::vector<Cell> row{scenarios()[scenario].name,
+                          challengers_[challenger].name,
+                          v.pass ? 1 : 0,
+                          v.figure,
+                          v.limit.unit,
+                          v.limit.value,
+                          v.why,
+                          v.limit.origin};
+    if (more.cells) {
+      for (const Cell& cell : more.cells(scenario, challenger)) row.push_back(cell);
+    }
+    table.row(row);
   }
   return table.write(path);
 }

@@ -9,6 +9,7 @@
 #include "app/lab/film/memory_feed.h"
 #include "app/lab/finger/touch_stage.h"
 #include "app/lab/scenario/judge.h"
+#include "app/lab/scenario/material_theory.h"
 #include "app/lab/scenario/scenario_tools.h"
 
 namespace relievo {
@@ -46,6 +47,23 @@ TEST(Judge, TheFirstDemandThatIsNotMetDecides) {
   Judge none;
   none.atMost(std::nan(""), {2, "mm"}, "no number");
   EXPECT_FALSE(none.verdict().pass);
+}
+
+TEST(MaterialTheory, ExplainsAFailureUpToItsOwnLimitAndNoOther) {
+  const auto explains = [](const char* material, const char* scenario, const Verdict& verdict) {
+    const auto theory = theoryOf(material, scenario, verdict);
+    return theory && theory->explains;
+  };
+  const Limit percent{5, "%"}, slew{50, "N/s"}, least{95, "%"};
+  EXPECT_TRUE(explains("friction", "rise-free", {false, 34.9, percent, ""}));
+  EXPECT_FALSE(explains("friction", "rise-free", {false, 35.1, percent, ""}));
+  EXPECT_FALSE(explains("friction", "rise-free", {false, 60, slew, ""})) << "another demand decided";
+  EXPECT_FALSE(explains("friction", "rise-contact", {false, 20, percent, ""}));
+  EXPECT_FALSE(explains("texture", "rise-free", {false, 20, percent, ""}));
+  EXPECT_TRUE(explains("stiffer", "fast-hip", {false, 90.9, least, ""}));
+  EXPECT_FALSE(explains("stiffer", "fast-hip", {false, 90, least, ""}));
+  EXPECT_FALSE(theoryOf("friction", "rise-free", {true, 1, percent, ""}).has_value()) << "it needs none";
+  EXPECT_FALSE(explains("friction", "rise-free", {false, std::nan(""), percent, ""}));
 }
 
 TEST(MemoryFeed, HoldsTwoFramesBeforeAndFourAfterThePresentOne) {

@@ -24,12 +24,18 @@ set bmargin at screen 0.27
 unset key
 set style fill solid border lc rgb "#ffffff"
 size(v) = abs(v) < 0.0005 ? "0" : abs(v) < 0.00995 ? sprintf("%.1g", v) : abs(v) < 0.995 ? sprintf("%.2g", v) : abs(v) < 9.95 ? sprintf("%.1f", v) : sprintf("%.0f", v)
-# A cell says it by its colour, by its mark and, where it failed, by a heavy border.
-cell(i, wanted) = int(column("pass")) == wanted ? x(i) : NaN
-plot ARG1 using (cell($0, 1)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#cfe6f5", \
+# A cell says it by its colour, by its mark and, where it failed, by a heavy border: 2 passed, 1 failed by no more than
+# the material itself does, 0 failed.
+verdict(i) = 2 * int(column("pass")) + int(column("explained"))
+cell(i, wanted) = verdict(i) == wanted ? x(i) : NaN
+mark(i) = verdict(i) == 2 ? "✓" : verdict(i) == 1 ? "(✓)" : "✗"
+held(i) = verdict(i) == 1 ? sprintf("%s %.0f", int(column("theory_at_most")) == 1 ? "≤" : "≥", column("theory")) : ""
+plot ARG1 using (cell($0, 2)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#cfe6f5", \
+     ARG1 using (cell($0, 1)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#f7edc4", \
      ARG1 using (cell($0, 0)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#f6c8b0", \
      ARG1 using (cell($0, 0)):(y($0)):(0.47):(0.45) with boxxyerror lc rgb "#a33000" lw 2 fs empty border, \
-     ARG1 using (x($0)):(y($0) + 0.22):(int(column("pass")) == 1 ? "✓" : "✗") with labels font ",15" tc rgb "#1c2024", \
-     ARG1 using (x($0)):(y($0) - 0.05):(size(column("figure"))) with labels font ",12" tc rgb "#1c2024", \
-     ARG1 using (x($0)):(y($0) - 0.28):(strcol("unit")) with labels font ",10" tc rgb "#1c2024" noenhanced, \
+     ARG1 using (x($0)):(y($0) + 0.27):(mark($0)) with labels font ",15" tc rgb "#1c2024", \
+     ARG1 using (x($0)):(y($0) + 0.02):(size(column("figure"))) with labels font ",12" tc rgb "#1c2024", \
+     ARG1 using (x($0)):(y($0) - 0.16):(strcol("unit")) with labels font ",10" tc rgb "#1c2024" noenhanced, \
+     ARG1 using (x($0)):(y($0) - 0.33):(held($0)) with labels font ",10" tc rgb "#1c2024" noenhanced, \
      ARG1 using (x($0)):(NaN):xtic(strcol("scenario")) with dots
