@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/player/touch/finger_name.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -238,11 +239,12 @@ std::string pictureFigures(const PlayReport& r) {
                static_cast<unsigned long long>(r.pairs.mismatched));
 }
 
-std::string touchText(const PlayReport& r, const HapticSummary& h) {
-  if (h.ticks == 0) return "touch   none\n";
-  if (!r.film.has_depth) return "touch   nothing to feel: the film has no depth\n";
+// `who`: which finger's, if there are two.
+std::string touchText(const PlayReport& r, const HapticSummary& h, const std::string& who) {
+  if (h.ticks == 0) return "touch   " + who + "none\n";
+  if (!r.film.has_depth) return "touch   " + who + "nothing to feel: the film has no depth\n";
   const unsigned long long missed = h.overruns, all = h.ticks + h.overruns;
-  return print("touch   %s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks missed\n",
+  return print("touch   %s%s, %.0f %% of the time in contact, at most %.2f N, %llu of %llu ticks missed\n", who.c_str(),
                h.device.c_str(), 100 * share(h.contact_ticks, h.ticks), h.max_force_n, missed, all);
 }
 
@@ -263,12 +265,12 @@ std::string toText(const PlayReport& r, bool verbose) {
                 static_cast<unsigned long long>(r.frames_dropped));
   if (verbose) text += pictureFigures(r);
   if (r.live) text += liveText(r);
-  const auto addFinger = [&](const HapticSummary& h) {
-    text += touchText(r, h);
+  const auto addFinger = [&](const HapticSummary& h, const char* name) {
+    text += touchText(r, h, r.second_finger ? std::string(name) + ": " : "");
     if (verbose && h.ticks > 0) text += touchFigures(r, h);
   };
-  addFinger(r.haptic);
-  if (r.second_finger) addFinger(r.second_finger->haptic);
+  addFinger(r.haptic, kFirstFinger);
+  if (r.second_finger) addFinger(r.second_finger->haptic, kSecondFinger);
   return text;
 }
 

@@ -105,8 +105,9 @@ TEST_F(TwoFingers, TheReportTellsBoth) {
   EXPECT_GT(json["second_finger"]["force"]["max_n"], 0.5);
   EXPECT_TRUE(json["second_finger"]["energy"].contains("scene_mj"));
   const std::string text = toText(both.report);
-  EXPECT_NE(text.find("touch   " + both.report.haptic.device), std::string::npos) << text;
-  EXPECT_NE(text.find("touch   " + both.report.second_finger->haptic.device), std::string::npos) << text;
+  EXPECT_NE(text.find("touch   first finger (amber): " + both.report.haptic.device), std::string::npos) << text;
+  EXPECT_NE(text.find("touch   second finger (blue): " + both.report.second_finger->haptic.device), std::string::npos)
+      << text;
   EXPECT_FALSE(
       nlohmann::json::parse(toJson(play(simulated("phantom,tapping", 1000), {}).report)).contains("second_finger"));
 }
@@ -123,7 +124,7 @@ TEST_F(TwoFingers, OneThatIsLostDoesNotDisturbTheOther) {
   for (const bool first_leaves : {false, true}) {
     const Traces both = first_leaves ? play(leaves, stays) : play(stays, leaves);
     expectSame(first_leaves ? both.second : both.first, alone);
-    const std::string who = first_leaves ? "first finger: " : "second finger: ";
+    const std::string who = first_leaves ? "first finger (amber): " : "second finger (blue): ";
     EXPECT_EQ(faults(both.report, who + "haptic device lost"), 1U);
     EXPECT_EQ(faults(both.report, who + "haptic device back"), 1U);
     EXPECT_GT(force_there_n_, 0.5);

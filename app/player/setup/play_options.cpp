@@ -188,10 +188,11 @@ void addSoundAndTextOptions(CLI::App& command, PlayerConfig& player) {
 }
 
 void addTouchOptions(CLI::App& command, PlayOptions& play, const DeviceNames& names) {
-  addBackEnd(command, "--haptic", play.haptic, "haptic device", names.haptic,
-             "The haptic device; give it twice to feel with two fingers, each of its own colour [the device that\nis "
-             "plugged in, else the mouse; off screen sim]",
-             &play.second_haptic);
+  addBackEnd(
+      command, "--haptic", play.haptic, "haptic device", names.haptic,
+      "The haptic device; give it twice to feel with two fingers: the first one's mark is amber where it\ntouches, the "
+      "second's blue [the device that is plugged in, else the mouse; off screen sim]",
+      &play.second_haptic);
   command
       .add_option("--rate", play.rate_hz,
                   "Ticks of touch per second, 500 to 8000; a slower device runs at its fastest rate [the device's own, "

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
 #include <utility>
+
+#include "app/player/touch/finger_name.h"
 
 namespace relievo {
 
@@ -12,8 +15,8 @@ FilmTouch::FilmTouch(const FingerParts& first, const FingerParts& second, Clock&
                      Journal& journal)
     : clock_(clock), journal_(journal) {
   const bool two = second.device != nullptr;
-  fingers_.emplace_back(first, two ? "first finger: " : "", clock, ticking, journal);
-  if (two) fingers_.emplace_back(second, "second finger: ", clock, ticking, journal);
+  fingers_.emplace_back(first, two ? std::string(kFirstFinger) + ": " : "", clock, ticking, journal);
+  if (two) fingers_.emplace_back(second, std::string(kSecondFinger) + ": ", clock, ticking, journal);
 }
 
 void FilmTouch::begin() {

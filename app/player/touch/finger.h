@@ -23,7 +23,7 @@ struct FingerParts {
 // The player's thread only. No call blocks on the device.
 class Finger {
  public:
-  // `who`: prefix of its entries in the journal, such as "second finger: "; empty if there is one finger.
+  // `who`: prefix of its entries in the journal, such as "second finger (blue): "; empty if there is one finger.
   Finger(const FingerParts& parts, std::string who, Clock& clock, Ticking ticking, Journal& journal)
       : session_(parts.device, clock, ticking), recorder_(parts.recorder), who_(std::move(who)), journal_(journal) {}
 
