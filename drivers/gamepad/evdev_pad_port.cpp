@@ -125,7 +125,8 @@ class EvdevPadPort final : public PadPort {
     Opened node = openNode(path_);
     if (node.error == EACCES) return fail(ErrorCode::PermissionDenied, kNoRight, EACCES);
     if (node.error != 0)
-      return fail(ErrorCode::NotFound, "there is no such gamepad; ls /dev/input lists the devices", node.error);
+      return fail(ErrorCode::NotFound, "there is no such gamepad; relievo devices lists those that are there",
+                  node.error);
     if (auto facts = take(node)) return std::move(*facts);
     if (taken_) return fail(ErrorCode::NotFound, kTaken);
     if (forceless_) return fail(ErrorCode::Unsupported, kNoForce);
