@@ -48,6 +48,11 @@ void onSignal(int number) {
   errno = interrupted;
 }
 
+bool isIgnored(int number) noexcept {
+  struct sigaction now{};
+  return ::sigaction(number, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 int tellExhausted(const std::exception& error) {
   log(LogLevel::Error, error.what(), "the system is out of resources; close other programs and try again");
   return kExitFailed;
@@ -111,6 +116,7 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   struct sigaction action{};
   action.sa_handler = onSignal;
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU, SIGIO, SIGPWR}) {
+    if (number == SIGHUP && isIgnored(SIGHUP)) continue;  // by nohup(1): it outlives its terminal
     action.sa_flags = number == SIGALRM ? SA_RESTART : 0;
     ::sigaction(number, &action, nullptr);
   }

@@ -28,7 +28,7 @@ inline int tell(const Failure& failure) {
 // the program at once, as does a crash (SIGSEGV, SIGABRT and the like). `last`, if given, is called just before such an
 // end, and also if a driver calls `exit` or `quick_exit`, as that of the window does when it loses its X server; it
 // must be async-signal-safe. SIGTSTP (Ctrl-Z) is then ignored, because it would stop all threads without that call.
-// Call once.
+// SIGHUP that is ignored, as nohup(1) does, stays so. Call once.
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
 // Runs the body of a main, which returns the exit code. `name` (a literal) starts each line on stderr. Exceptions (out

@@ -27,6 +27,7 @@ class Process {
     const int fd = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     ::dup2(fd, STDERR_FILENO);
     ::dup2(fd, STDOUT_FILENO);
+    ::signal(SIGHUP, SIG_DFL);  // also where nohup(1) runs the test
     ::execv(argv[0], argv.data());
     ::_exit(127);
   }

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -41,6 +42,18 @@ TEST(ProgramDeathTest, CtrlZDoesNotStopIt) {
   const auto ignored = [](void (*handler)(int)) { return handler == SIG_IGN ? 5 : 6; };
   EXPECT_EXIT(std::_Exit(ignored(std::signal(SIGTSTP, SIG_DFL))), testing::ExitedWithCode(6), "");
   EXPECT_EXIT((begin(), std::_Exit(ignored(std::signal(SIGTSTP, SIG_DFL)))), testing::ExitedWithCode(5), "");
+}
+
+// As nohup(1) starts it.
+TEST(ProgramDeathTest, AHangUpThatIsIgnoredStaysSo) {
+  const auto hangUp = [](void (*before)(int)) {
+    std::signal(SIGHUP, before);
+    const std::atomic<bool>& stop = stopOnSignals(quieten);
+    std::raise(SIGHUP);
+    std::_Exit(stop ? 5 : 6);
+  };
+  EXPECT_EXIT(hangUp(SIG_DFL), testing::ExitedWithCode(5), "");
+  EXPECT_EXIT(hangUp(SIG_IGN), testing::ExitedWithCode(6), "");
 }
 
 // As with a display that does not answer.
