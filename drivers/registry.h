@@ -89,7 +89,7 @@ struct DeviceState {
 };
 [[nodiscard]] std::vector<DeviceState> lookAtDevices(const HapticSettings& settings, Clock& clock);
 
-// For a program that encodes nothing: bounds the memory that a damaged film makes a decoder ask for.
+// Bounds the memory that a damaged film makes a reader or a decoder ask for, until a film is written.
 void boundDecoderMemory() noexcept;
 
 // Stops the motors of every haptic device of the process; for handlers of fatal signals.

@@ -246,7 +246,6 @@ int run(Arguments& a) {
   if (auto chosen = choosePaintings(a); !chosen) return tell(chosen.error());
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
-
   std::vector<std::string> inputs = a.source.named_files;
   inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.depth_from});
   for (const Painting& painting : a.output.paintings) inputs.push_back(painting.path);
@@ -261,8 +260,8 @@ int run(Arguments& a) {
       line.show([&](Duration elapsed) { return progressText(done, total, elapsed); });
     };
     if (a.scene.empty()) {
-      const PairReader::Backends backends{drivers::makeMediaSource, drivers::makeSoftwareDecoder};
-      summary = authorFilm(a.source, backends, a.output, stop, progress);
+      summary =
+          authorFilm(a.source, {drivers::makeMediaSource, drivers::makeSoftwareDecoder}, a.output, stop, progress);
     } else {
       const int threads = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
       summary = authorSample({.threads = threads}, a.output, stop, progress);
@@ -288,6 +287,7 @@ int parseAndRun(int argc, char** argv) {
   Arguments arguments;
   addOptions(app, arguments);
   shareOneHeap();
+  drivers::boundDecoderMemory();
   if (const auto parsed = parseCommandLine(app, argc, argv); !parsed) return parsed.error();
   return run(arguments);
 }

@@ -6,10 +6,12 @@
 #include <cerrno>
 #include <cstring>
 #include <initializer_list>
+#include <limits>
 
 #include "hal/media/stream_tags.h"
 
 extern "C" {
+#include <libavutil/mem.h>
 #include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
@@ -186,6 +188,9 @@ Result<void> VideoEncoder::open(const Settings& settings, bool global_header) {
   last_pts_ = AV_NOPTS_VALUE;
   stream_tags_ = settings.stream_tags;
   configure(*codec_, settings, global_header);
+  // Ends a bound that a program has set for its inputs: a packet of FFV1 takes 148 bytes a sample, and the index of a
+  // film that is written 144 a picture.
+  av_max_alloc(std::numeric_limits<int>::max());
   if (const int code = avcodec_open2(codec_.get(), encoder, nullptr); code < 0) {
     return fail(ErrorCode::InvalidArgument, of(settings.codec).refusal, osErrorOf(code));
   }

@@ -53,7 +53,8 @@ class VideoEncoder {
   using Sink = std::function<Result<void>(AVPacket&)>;
 
   // Unsupported if FFmpeg lacks the library; InvalidArgument for bits, a size (4:2:0 needs even ones) or a quality that
-  // the codec does not support. `global_header`: store parameter sets in the container instead of the stream.
+  // the codec does not support. `global_header`: store parameter sets in the container instead of the stream. From then
+  // on FFmpeg may allocate large blocks in the whole process, whatever bounded it before.
   [[nodiscard]] Result<void> open(const Settings& settings, bool global_header);
   [[nodiscard]] const AVCodecContext& context() const noexcept { return *codec_; }
   // Corrupt if the timestamps do not increase.
