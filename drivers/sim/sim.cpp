@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <utility>
 
 #include "hal/moving_mass.h"
 
@@ -61,12 +62,13 @@ class SimHaptic final : public HapticDevice {
   Result<void> homeDevice() override { return {}; }
 
   Result<void> startDevice() override {
-    now_ = last_write_ = clock_.now();
+    begun_ = false;
     return {};
   }
 
   Result<HapticSample> readSample() RELIEVO_RT override {
     const MonotonicTime now = clock_.now();
+    if (!std::exchange(begun_, true)) now_ = last_write_ = now;
     const Duration elapsed = std::clamp(now - now_, Duration(0), kLongestAdvance);
     now_ = now;
     if (elapsed > Duration(0)) advance(toSeconds(elapsed));
@@ -139,7 +141,8 @@ class SimHaptic final : public HapticDevice {
   DeviceProfile profile_;
   HandPath path_;
   const Clock& clock_;
-  MonotonicTime now_;  // the simulation's time
+  bool begun_ = false;  // it begins with the first reading: a tick does not simulate what was before
+  MonotonicTime now_;   // the simulation's time
   MonotonicTime last_write_;
   double time_s_ = 0;  // on the hand's path
   std::uint64_t random_ = 0;

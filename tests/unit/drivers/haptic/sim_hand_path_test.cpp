@@ -2,10 +2,12 @@
 // The paths of the simulated hand: built-in ones, and a script's.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "drivers/sim/hand_path.h"
+#include "drivers/sim/sim.h"
 
 namespace relievo {
 namespace {
@@ -89,6 +91,19 @@ TEST(SimHandPath, ItsOwnPathIsSlowUnbrokenAndInReach) {
     ASSERT_LE(now.force_limit_n, 2.0 + 1e-9) << i;
     before = now;
   }
+}
+
+// What was simulated of the time between start and first tick would make that tick the longest.
+TEST(SimHandPath, BeginsWithTheFirstReading) {
+  ManualClock clock;
+  DeviceProfile profile;
+  profile.encoder_step_mm = 0;
+  const auto device = makeSimHaptic(profile, HandPath({{0.0, {0, 0, 20}}, {0.1, {0, 0, 40}}}), clock);
+  ASSERT_TRUE(device->open() && device->home() && device->start());
+  clock.advance(std::chrono::milliseconds(20));
+  EXPECT_EQ(device->read()->position_mm, glm::dvec3(0, 0, 20));
+  clock.advance(std::chrono::milliseconds(1));
+  EXPECT_GT(device->read()->position_mm.z, 20);
 }
 
 }  // namespace
