@@ -190,7 +190,8 @@ DepthReading readInFront(const DepthClues& clues, const KnownKind* kind, const F
                          CalibrationLayers& layers) {
   const bool open = !layers.command_line.contains("invalid") && !layers.side_file.contains("invalid") &&
                     !says(layers, {"near", "far"}) && (kind == nullptr || kind->inverse.mm == 0);
-  const auto background = open ? farBackground(count) : std::nullopt;
+  const auto full = fullCode(look, count);
+  const auto background = open ? farBackground(full ? count.without(CodeSet(*full)) : count) : std::nullopt;
   if (!background) return readSamples(clues, kind, look, count, layers);
   CalibrationLayers in_front = layers;
   DepthReading read = readSamples(clues, kind, look, count.without(CodeSet(*background)), in_front);

@@ -146,6 +146,10 @@ void scale(CalibrationSettings& settings, double value, double zero) {
   }
 }
 
+double full(const Frame& depth, std::uint32_t code) {
+  return std::abs(depth.value_per_code) * code;
+}
+
 double nearerBelowAsDistances(const Frame& depth, const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
@@ -164,6 +168,22 @@ std::optional<bool> kindOfAirSim(std::string_view name) {
 }
 
 }  // namespace
+
+std::optional<std::uint32_t> fullCode(const Frame& depth, const CodeCount& count) {
+  constexpr double kClear = 0.98;  // a stereo camera's next step is farther off
+  const double value = std::abs(depth.value_per_code);
+  if (value == 0 || depth.value_at_zero != 0) return std::nullopt;
+  const CodeCount all = count.together();
+  for (const double number : {65.535, 65535.0}) {
+    const double code = number / value;
+    if (code < 2 || code > kTop) continue;
+    const auto rounded = static_cast<std::uint32_t>(std::lround(code));
+    const auto clear = static_cast<std::uint32_t>(kClear * code);
+    const bool alone = all.share(clear, rounded - 1) == 0 && all.share(rounded + 1, kTop) == 0;
+    if (all.of(rounded) > 0 && all.share(1, rounded - 1) > 0 && alone) return rounded;
+  }
+  return std::nullopt;
+}
 
 std::optional<bool> namesDisparity(std::string_view path) {
   const std::string lower = lowerCase(path);
@@ -236,6 +256,12 @@ bool mayBeMetres(const Frame& depth, const CodeCount& count) {
 
 DepthReading readFloats(const Frame& depth, const CodeCount& count, bool disparity, const CalibrationLayers& said) {
   if (count.share(1, kTop) == 0) return {};
+  if (const auto hole = fullCode(depth, count)) {
+    DepthReading reading = readFloats(depth, count.without(CodeSet(*hole)), disparity, said);
+    if (!reading.settings.empty()) reading.settings["invalid"] = print("0+%u", *hole);
+    if (!reading.why.empty()) reading.why += print(", without %.5g, a sensor's 65535: holes", full(depth, *hole));
+    return reading;
+  }
   const Reach reach = reachOf(depth, count);
   const auto unit = unitIn(said);
   const bool told = !unit && (has(said, "law") || has(said, "polarity"));

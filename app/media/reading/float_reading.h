@@ -33,6 +33,10 @@ namespace relievo {
 // disparity of infinitely far.
 [[nodiscard]] bool areRelative(const CodeCount& count);
 
+// The code of a sensor's 65535, which is no distance, where an array was divided by 1000 or not: 65.535 or 65535 as the
+// highest number of all.
+[[nodiscard]] std::optional<std::uint32_t> fullCode(const Frame& depth, const CodeCount& count);
+
 // For codes that stand for floats (Frame::value_per_code), or are the numbers themselves. Distances are metres, or
 // millimetres if half of them are beyond 200. Disparities follow the inverse law unless their range shows an arbitrary
 // zero. Numbers on both sides of 0 are relative disparities or heights. What `said` states overrides the guess: unit=
