@@ -93,7 +93,14 @@ double CodeCount::remainders(std::uint32_t divisor, std::uint32_t most) const {
 }
 
 int CodeCount::kinds() const {
-  return static_cast<int>(std::count_if(of_code_.begin(), of_code_.end(), [](std::uint64_t n) { return n > 0; }));
+  return kinds(0, kTop);
+}
+
+int CodeCount::kinds(std::uint32_t low, std::uint32_t high) const {
+  high = std::min<std::uint32_t>(high, static_cast<std::uint32_t>(of_code_.size()) - 1);
+  if (low > high) return 0;
+  const auto occurs = [](std::uint64_t n) { return n > 0; };
+  return static_cast<int>(std::count_if(of_code_.begin() + low, of_code_.begin() + high + 1, occurs));
 }
 
 bool CodeCount::hasGapAtZero(std::uint32_t gap) const {

@@ -40,6 +40,8 @@ class CodeCount {
   [[nodiscard]] double remainders(std::uint32_t divisor, std::uint32_t most) const;
   // How many different codes occur.
   [[nodiscard]] int kinds() const;
+  // Likewise, of those in `low` .. `high`, both included.
+  [[nodiscard]] int kinds(std::uint32_t low, std::uint32_t high) const;
   // True if code 0 occurs, a sensor's hole, and no code of 1 .. `gap` does.
   [[nodiscard]] bool hasGapAtZero(std::uint32_t gap) const;
   // The same samples, also of the later pictures, without those whose code is in `set`.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "app/media/reading/codes/far_background.h"
+#include "app/media/reading/codes/measured_codes.h"
 #include "app/media/reading/codes/stragglers.h"
 #include "app/media/reading/float_reading.h"
 #include "platform/print.h"
@@ -15,12 +16,6 @@ namespace {
 
 constexpr std::uint32_t kTop = 0xffff;
 
-// A depth rendering stretched to 16 bits reaches the upper quarter of the codes; 32 m in mm, or 10 m at 5000 codes a
-// metre, do not.
-constexpr std::uint32_t kStretched = 0xc000;
-// A rendering that reaches only the upper half is distinguished by the gap that a sensor leaves between its hole code
-// (0) and its nearest reading.
-constexpr std::uint32_t kMaybeStretched = 0x8000, kLeastGap = 100;
 constexpr double kNotRaw = 0.002;
 
 // For users who know the unit of a recording.
@@ -30,8 +25,8 @@ constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,inval
 constexpr std::uint32_t kRawHole = 2047, kRawHoleBeyond = 2048, kRawLowest = 300, kRawHighest = 1084;
 
 // Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
-// metre. No sensor sees nearer than .2 m, which is 1000 of those.
-constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kNearestOfFine = 3000, kLeastOfFine = 1000;
+// metre. The sensors whose recordings have those, Kinect and Xtion, see nothing nearer than .35 m, 1750 codes.
+constexpr std::uint32_t kMiddleMm = 5000, kNearestOfFine = 3000, kLeastOfFine = 1750;
 
 // mm in tenths: steps of ten codes that 8, 10 or 12 bits stretched to 16 do not make.
 constexpr std::uint32_t kTenths = 10, kMostStep = 8;
@@ -120,19 +115,6 @@ DepthReading readNetwork(const CodeCount& count) {
   return reading;
 }
 
-bool isDistances(const CodeCount& count) {
-  if (count.share(1, kTop - 1) == 0) return false;
-  const std::uint32_t highest = count.quantile(1 - kOutliers, 1, kTop - 1);
-  if (highest >= kStretched) return false;
-  return highest < kMaybeStretched || count.hasGapAtZero(kLeastGap);
-}
-
-// A sensor's picture holds many different codes.
-bool isMeasured(const CodeCount& count) {
-  constexpr int kLeastCodes = 100;
-  return count.kinds() >= kLeastCodes;
-}
-
 // For heights: the range of codes.
 DepthReading readHeights(const CodeCount& count, const CodeSet& holes) {
   const CodeCount valid = count.without(holes);
@@ -164,19 +146,28 @@ std::string otherLaw(const KnownKind& kind, const CodeCount& count) {
   return "if they are disparities, 256 codes a pixel: --as kitti-disparity";
 }
 
+constexpr const char* kTenthsOfMm = "if 10000, as RealSense's D405 has: --as ycb";
+
 // Other units that the distances may have. The relief is the same; its depth in mm is not.
 std::string otherUnit(const KnownKind& kind, const CodeCount& count) {
   const bool fine = count.quantile(0.5, 1, kTop - 1) > kNearestOfFine;
   // Sensors leave holes, networks do not.
   const char* const zoedepth = count.share(0, 0) == 0 ? "if there are 256 codes a metre: --as zoedepth" : "";
-  if (kind.name == std::string_view("tum") || kind.name == std::string_view("ycb"))
-    return both("if a code is 1 mm: --as mm", zoedepth);
-  if (kind.name == std::string_view("mm") && fine) return both("if there are 5000 codes a metre: --as tum", zoedepth);
+  if (kind.name == std::string_view("tum")) return both(both("if a code is 1 mm: --as mm", kTenthsOfMm), zoedepth);
+  if (kind.name == std::string_view("ycb")) return both("if a code is 1 mm: --as mm", zoedepth);
+  if (kind.name == std::string_view("mm") && fine)
+    return both(both("if there are 5000 codes a metre: --as tum", kTenthsOfMm), zoedepth);
   constexpr std::uint32_t kNearMm = 1500;  // few sensors in mm see nothing beyond
   if (kind.name == std::string_view("mm") && count.quantile(1 - kOutliers, 1, kTop - 1) < kNearMm)
     return *zoedepth != '\0' ? zoedepth : "if there are 256 codes a metre: --as kitti";
   if (kind.name == std::string_view("mm")) return zoedepth;
   return kind.name == std::string_view("kitti") ? "if a code is 1 mm: --as mm" : "";
+}
+
+// No sensor sees a whole view as near as that.
+bool isTooNear(const CodeCount& count, const KnownKind& kind) {
+  constexpr std::uint32_t kNearestMm = 50;
+  return kind.name == std::string_view("mm") && count.quantile(1 - kOutliers, 1, kTop - 1) < kNearestMm;
 }
 
 // What else codes may be whose kind only the pictures show.
@@ -278,7 +269,10 @@ DepthReading readCodes(const Frame& depth, const CodeCount& count, const Calibra
   DepthReading reading = readReach(count, with, kind);
   reading.kind = kind;
   reading.offer = otherKinds(*kind, count);
-  reading.unsure = !reading.offer.empty() && !otherEnd(count).empty() && looksLikeDisparity(depth, count);
+  const bool network = !otherEnd(count).empty() && looksLikeDisparity(depth, count);
+  const bool too_near = isTooNear(count, *kind);
+  if (too_near) reading.offer = "read so, all is nearer than a sensor sees: " + reading.offer;
+  reading.unsure = !reading.offer.empty() && (network || too_near);
   reading.settings.merge(with.pictures);
   return reading;
 }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tells measured distances from brightness in 16-bit codes.
+#pragma once
+
+#include <cstdint>
+
+#include "app/media/reading/code_count.h"
+
+namespace relievo {
+
+// A rendering that reaches only the upper half is distinguished by the gap that a sensor leaves between its hole code
+// (0) and its nearest reading.
+inline constexpr std::uint32_t kMaybeStretched = 0x8000;
+
+// Most sensors see less far.
+inline constexpr std::uint32_t kFarthestMm = 12000;
+
+// A sensor's picture holds many different codes.
+[[nodiscard]] bool isMeasured(const CodeCount& count);
+
+// True for codes that leave out a large part of their range, or are a stereo camera's.
+[[nodiscard]] bool isDistances(const CodeCount& count);
+
+// A stereo camera (RealSense) measures in even steps of disparity, so that twice as far away its distances are four
+// times as far apart, and half as many of them lie in twice the range. Of a picture whose codes reach the highest ones
+// this tells distances from brightness, which has no fewer shades at its bright end.
+[[nodiscard]] bool hasStereoSteps(const CodeCount& count);
+
+}  // namespace relievo

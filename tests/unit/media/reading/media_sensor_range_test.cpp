@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Distances of sensors whose noise reaches the highest codes, and numbers that no sensor measures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "app/media/reading/codes/measured_codes.h"
+#include "app/media/reading/depth_meaning.h"
+#include "app/media/reading/float_reading.h"
+#include "tests/support/film/clip_maker.h"
+#include "tests/support/film/depth_frames.h"
+#include "tests/support/film/opened_film.h"
+#include "tests/support/film/recorded_scene.h"
+#include "tests/support/film/scene_film.h"
+
+namespace relievo {
+namespace {
+
+using test::distanceMm;
+using test::makeGrayFrame;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kCols = test::kSceneCols, kRows = test::kSceneRows;
+
+// A stereo camera with a focal length of 425 pixels, a baseline of 50 mm and 32 steps a pixel.
+constexpr double kSteps = 425.0 * 50 * 32;
+std::uint32_t stereoMm(double step) {
+  return static_cast<std::uint32_t>(std::lround(kSteps / std::round(step)));
+}
+// The scene, and right of it the sky, where the camera returns all that it can between 10 and 65 m.
+std::uint32_t sceneUnderTheSky(int c, int r) {
+  const double mm = distanceMm(c, r);
+  if (c > 120) return stereoMm(11 + (7 * c + r) % 75);
+  return mm == 0 ? 0 : stereoMm(kSteps / mm);
+}
+
+const KnownKind* kindIn(const Frame& frame) {
+  return sensorKind(frame, CodeCount(frame));
+}
+
+TEST(SensorRange, AStereoCamerasDistancesMayReachTheHighestCode) {
+  const test::TemporaryFolder folder;
+  test::makeClip(folder / "a_depth.png",
+                 {test::ClipTrack{.codec = "png",
+                                  .pix_fmt = "gray16be",
+                                  .width = kCols,
+                                  .height = kRows,
+                                  .frames = 1,
+                                  .sample = [](int, int c, int r, int) { return sceneUnderTheSky(c, r); }}});
+  const test::OpenedFilm film = test::openFilm({.url = folder / "a_depth.png"});
+  EXPECT_EQ(film.info.calibration.calibration.unit_mm, 1.0);
+  EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_TRUE(std::isnan(film.heightAt(2, 50)));
+  EXPECT_NEAR(film.distanceAt(kCols / 2, kRows / 2), distanceMm(kCols / 2, kRows / 2), 4);  // half a step
+}
+
+// Without any hole it is told by its steps alone.
+TEST(SensorRange, StepsThatGrowWithTheDistanceAreAStereoCameras) {
+  const auto steps = [](int c, int r) { return stereoMm(11 + (c + 160 * r) % 1200); };
+  const Frame measured = makeGrayFrame(kCols, kRows, 16, {}, steps);
+  EXPECT_TRUE(hasStereoSteps(CodeCount(measured)));
+  EXPECT_EQ(kindIn(measured), findKind("mm"));
+  // The same brightness in as many even shades, and in all of them.
+  const Frame even = makeGrayFrame(kCols, kRows, 16, {}, [&](int c, int r) { return steps(c, r) / 257 * 257; });
+  EXPECT_FALSE(hasStereoSteps(CodeCount(even)));
+  const Frame smooth = makeGrayFrame(kCols, kRows, 16, {}, [](int c, int r) { return 300 + 3 * c + 600 * r; });
+  EXPECT_FALSE(hasStereoSteps(CodeCount(smooth)));
+  EXPECT_EQ(kindIn(smooth), nullptr);
+}
+
+// A few wild distances, of another camera than a stereo one, around a scene of which most is a hole.
+TEST(SensorRange, AFewWildDistancesMakeNoBrightness) {
+  const auto picture = [](double times) {
+    return makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+      const double mm = distanceMm(c, r);
+      if (c < 40 || mm == 0) return 0u;
+      return c == 80 ? 30000u + 331u * static_cast<std::uint32_t>(r) : static_cast<std::uint32_t>(times * mm);
+    });
+  };
+  EXPECT_EQ(kindIn(picture(1)), findKind("mm"));
+  EXPECT_EQ(kindIn(picture(25)), nullptr) << "the scene itself fills the codes";
+}
+
+// Kinect and Xtion, whose recordings have 5000 codes a metre, begin at .35 m.
+TEST(SensorRange, FarViewsOfWhatIsNearForAKinectAreInMillimetres) {
+  const auto picture = [](std::uint32_t nearest) {
+    return makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+      const auto mm = static_cast<std::uint32_t>(10 * distanceMm(c, r));
+      return c > 140 ? nearest + static_cast<std::uint32_t>(r) : mm;
+    });
+  };
+  EXPECT_EQ(kindIn(picture(1200)), findKind("mm"));
+  EXPECT_EQ(kindIn(picture(2000)), findKind("tum"));
+  const Frame fine = picture(2000);
+  EXPECT_THAT(readCodes(fine, CodeCount(fine), {}).offer, HasSubstr("--as ycb"));
+}
+
+// 65535 in metres: as arrays of floats have it that were divided by 1000.
+TEST(SensorRange, TheHighestCodeIsAHoleInMetresToo) {
+  const auto meaning = [](std::uint32_t farthest, double value) {
+    Frame frame = makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+      const double mm = distanceMm(c, r);
+      return c > 120 ? farthest : static_cast<std::uint32_t>(std::lround(mm / (1000 * value)));
+    });
+    frame.value_per_code = value;
+    return readMeaning(DepthClues{.codec = "npy", .path = "depth.npy"}, nullptr, frame).value();
+  };
+  const DepthCalibration hole = meaning(13107, 0.005).calibration.calibration;
+  EXPECT_EQ(hole.invalid, CodeSet::parse("0+13107").value());
+  EXPECT_LT(hole.far_mm, 4000);
+  // The same share at 65.53 m is a background behind a gap, and told as such.
+  const DepthMeaning wall = meaning(13106, 0.005);
+  EXPECT_THAT(wall.reading.doubts, Contains(HasSubstr("taken for background")));
+  EXPECT_THAT(meaning(13107, 0.005).reading.doubts, Not(Contains(HasSubstr("taken for background"))));
+}
+
+// Brightness of 0 to 65535 in floats.
+TEST(SensorRange, TheHighestNumberOfAnEvenRangeIsNoHole) {
+  Frame frame = makeGrayFrame(kCols, kRows, 16, {}, [](int c, int r) { return 1u + 2 * (c + 160 * r) % 13107; });
+  frame.value_per_code = 5;
+  ASSERT_GT(CodeCount(frame).of(13107), 0u);
+  EXPECT_FALSE(fullCode(frame, CodeCount(frame)));
+}
+
+TEST(SensorRange, CodesThatWouldBeNearerThanAnySensorSeesAreDoubted) {
+  const auto doubts = [](std::uint32_t nearest) {
+    const Frame frame = makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) { return nearest + (c + r) % 11; });
+    const DepthClues clues{.codec = "npy", .path = "depth.npy"};
+    return readMeaning(clues, kindOf(clues, frame), frame).value().reading.doubts;
+  };
+  EXPECT_THAT(doubts(5), Contains(HasSubstr("nearer than a sensor sees")));
+  EXPECT_THAT(doubts(300), Not(Contains(HasSubstr("nearer than a sensor sees"))));
+}
+
+}  // namespace
+}  // namespace relievo
