@@ -286,8 +286,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   }
   recording.views = found.views;
   if (both && !found.views)
-    recording.depth_tags =
-        depthTagsOf(recording.color.front().path, recording.depth.front().path, !found.color_values.empty());
+    recording.depth_tags = depthTagsOf(recording.color.front().path, recording.depth.front().path);
   if (found.left_out > 0) recording.notes.push_back(print("%zu other pictures are left out", found.left_out));
   return recording;
 }

@@ -9,6 +9,7 @@
 
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/codes/far_background.h"
+#include "app/media/reading/codes/measured_codes.h"
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_reading.h"
 #include "app/media/reading/float_reading.h"
@@ -20,6 +21,10 @@ namespace {
 
 constexpr Error kNoDistances{ErrorCode::InvalidArgument, 0,
                              "its numbers go through 0, so they are no distances; leave unit= out"};
+
+constexpr const char* kAsTum =
+    "names and lists are as TUM's, but at 5000 codes a metre it would begin nearer than a Kinect sees; if it does: "
+    "--as tum";
 
 // What was stated about the codes themselves; it overrides what names and pictures show.
 CalibrationLayers saidLayers(const DepthClues& clues) {
@@ -37,20 +42,14 @@ bool fits(const KnownKind& kind, DepthCode code, const Frame& frame) {
   return frame.model == ColorModel::Gray && frame.components[0].bits == 16;
 }
 
-bool isOfStereoCamera(const KnownKind* kind) {
-  return kind != nullptr && kind->name == std::string_view("middlebury");
+bool is(std::string_view name, const KnownKind* kind) {
+  return kind != nullptr && kind->name == name;
 }
 
-bool isRecord3d(const KnownKind* kind) {
-  return kind != nullptr && kind->name == std::string_view("record3d");
-}
-
-bool isHeights(const KnownKind* kind) {
-  return kind != nullptr && kind->name == std::string_view("heights");
-}
-
-bool isUnreal(const KnownKind* kind) {
-  return kind != nullptr && kind->name == std::string_view("unreal");
+// Others record in mm, too, and lay their files out as TUM does.
+bool isOfMmAsTum(const DepthClues& clues, const Frame& stored, const CodeCount& count) {
+  return is("tum", clues.place.kind) && clues.place.origin == CalibrationOrigin::Name &&
+         isTooNearForKinect(count.together()) && is("mm", sensorKind(stored, count));
 }
 
 // Record3D states the range of the whole circle of hues, of which a film uses a part.
@@ -94,7 +93,7 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
   if (clues.as != nullptr) layers.stated_kind = settingsOf(*clues.as);
   if (clues.place.kind != kind) return {};
   CalibrationSettings found = clues.place.settings;
-  const HueSpan span = isRecord3d(kind) ? takeSpan(found) : HueSpan{};
+  const HueSpan span = is("record3d", kind) ? takeSpan(found) : HueSpan{};
   const bool named = clues.place.origin == CalibrationOrigin::Name;
   CalibrationSettings& layer = named                                                    ? layers.names
                                : clues.place.origin == CalibrationOrigin::ContainerTags ? layers.tags
@@ -108,10 +107,6 @@ HueSpan addKind(const DepthClues& clues, const KnownKind* kind, CalibrationLayer
 bool isNamedDisparity(const DepthClues& clues, const Frame& look) {
   return clues.code == DepthCode::Luma && look.model != ColorModel::Yuv && !definesCodes(saidLayers(clues)) &&
          saysDisparity(clues.path);
-}
-
-bool isOfSintel(const KnownKind* kind) {
-  return kind != nullptr && kind->name == std::string_view("sintel-disparity");
 }
 
 // The name says that near is bright and codes are 1/distance; only the range of codes is read from the picture.
@@ -173,11 +168,11 @@ DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeC
 // Samples of brightness, of distances or of disparities, as the clues require; may add what they show to `layers`.
 DepthReading readSamples(const DepthClues& clues, const KnownKind* kind, const Frame& look, const CodeCount& count,
                          CalibrationLayers& layers) {
-  if (isOfStereoCamera(kind) && clues.place.camera) return readDisparities(look, count, *clues.place.camera);
-  if ((isOfStereoCamera(kind) || isOfSintel(kind)) && look.value_per_code == 0) {
+  if (is("middlebury", kind) && clues.place.camera) return readDisparities(look, count, *clues.place.camera);
+  if ((is("middlebury", kind) || is("sintel-disparity", kind)) && look.value_per_code == 0) {
     return readFloats(look, count, true, layers);
   }
-  if (look.value_per_code != 0 && !isHeights(kind)) {
+  if (look.value_per_code != 0 && !is("heights", kind)) {
     scaleToCodes(layers, look);
     return readNumbers(clues, look, count, layers);
   }
@@ -237,12 +232,15 @@ const KnownKind* kindOf(const DepthClues& clues, const Frame& stored, std::span<
     const auto gray = inOrder(stored, SampleOrder::EqualColors);
     return gray ? kindOf(clues, *gray, later) : nullptr;
   }
-  if (isOfStereoCamera(clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
+  if (is("middlebury", clues.place.kind) && clues.code == DepthCode::Luma && !definesCodes(saidLayers(clues))) {
     return clues.place.kind;
   }
   if (definesCodes(saidLayers(clues))) return nullptr;
-  if (stored.value_per_code != 0) return isUnreal(clues.place.kind) ? clues.place.kind : nullptr;
-  if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) return clues.place.kind;
+  if (stored.value_per_code != 0) return is("unreal", clues.place.kind) ? clues.place.kind : nullptr;
+  if (clues.place.kind != nullptr && fits(*clues.place.kind, clues.code, stored)) {
+    const CodeCount count = countOf(stored, later);
+    return isOfMmAsTum(clues, stored, count) ? sensorKind(stored, count) : clues.place.kind;
+  }
   if (isNamedDisparity(clues, stored)) {
     return packedOrder(stored) == SampleOrder::RedGreen ? findKind("sintel-disparity") : nullptr;
   }
@@ -290,6 +288,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
+  if (is("mm", kind) && is("tum", clues.place.kind) && clues.as == nullptr) reading.offers.emplace_back(kAsTum);
   if (!doubt.line.empty()) reading.doubts.push_back(std::move(doubt.line));
   if (!read.doubt.empty()) reading.doubts.push_back(std::move(read.doubt));
   reading.near_end_is_usual = doubt.usual;

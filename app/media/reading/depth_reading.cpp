@@ -24,9 +24,8 @@ constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,inval
 // Of 11 bits the highest is a hole; some recorders write the code beyond.
 constexpr std::uint32_t kRawHole = 2047, kRawHoleBeyond = 2048, kRawLowest = 300, kRawHighest = 1084;
 
-// Most sensors see less than 12 m and half of a scene within 5 m; most scenes lie beyond 0.6 m: 3000 codes at 5000 a
-// metre. The sensors whose recordings have those, Kinect and Xtion, see nothing nearer than .35 m, 1750 codes.
-constexpr std::uint32_t kMiddleMm = 5000, kNearestOfFine = 3000, kLeastOfFine = 1750;
+// Most scenes lie beyond .6 m: 3000 codes at 5000 a metre.
+constexpr std::uint32_t kNearestOfFine = 3000;
 
 // mm in tenths: steps of ten codes that 8, 10 or 12 bits stretched to 16 do not make.
 constexpr std::uint32_t kTenths = 10, kMostStep = 8;

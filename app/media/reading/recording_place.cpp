@@ -133,8 +133,10 @@ bool isRawNyu(std::string_view stem) {
 bool isTum(const fs::path& path, const fs::path& folder) {
   const fs::path above = folder.parent_path();
   // Beside color/ the pictures tell the unit: recorders in mm name them so (OpenLORIS, ROS).
-  return (isSeconds(path.stem().string()) && !isFolder(above / "color")) || isRegularFile(above / "associations.txt") ||
-         (isRegularFile(above / "depth.txt") && isRegularFile(above / "rgb.txt"));
+  const auto lists = [&above](const char* name) { return isRegularFile(above / name); };
+  return (isSeconds(path.stem().string()) && !isFolder(above / "color")) || lists("associations.txt") ||
+         lists("associate.txt") || lists("association.txt") || lists("assoc.txt") ||
+         (lists("depth.txt") && lists("rgb.txt"));
 }
 
 // Replica as NICE-SLAM renders it: "results/frame000000.jpg", "results/depth000000.png", "traj.txt".

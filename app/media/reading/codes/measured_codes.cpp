@@ -12,6 +12,7 @@ constexpr std::uint32_t kTop = 0xffff;
 // metre, do not.
 constexpr std::uint32_t kStretched = 0xc000;
 constexpr std::uint32_t kLeastGap = 100;
+constexpr double kOutliers = 0.002;
 
 }  // namespace
 
@@ -21,7 +22,7 @@ bool isMeasured(const CodeCount& count) {
 }
 
 bool isDistances(const CodeCount& count) {
-  constexpr double kOutliers = 0.002, kMost = 0.9;
+  constexpr double kMost = 0.9;
   if (count.share(1, kTop - 1) == 0) return false;
   const std::uint32_t highest = count.quantile(1 - kOutliers, 1, kTop - 1);
   if (highest < kMaybeStretched) return true;
@@ -29,6 +30,10 @@ bool isDistances(const CodeCount& count) {
   if (highest < kStretched) return gap;
   // Wild distances, and a stereo camera's far noise, reach every code.
   return hasStereoSteps(count) || (gap && isMeasured(count) && count.quantile(kMost, 1, kTop - 1) < kFarthestMm);
+}
+
+bool isTooNearForKinect(const CodeCount& count) {
+  return count.quantile(kOutliers, 1, kTop - 1) < kLeastOfFine && count.quantile(0.5, 1, kTop - 1) <= kMiddleMm;
 }
 
 bool hasStereoSteps(const CodeCount& count) {

@@ -12,14 +12,18 @@ namespace relievo {
 // (0) and its nearest reading.
 inline constexpr std::uint32_t kMaybeStretched = 0x8000;
 
-// Most sensors see less far.
-inline constexpr std::uint32_t kFarthestMm = 12000;
+// Most sensors see less far than 12 m, and half of a scene within 5 m. The sensors whose recordings have 5000 codes a
+// metre, Kinect and Xtion, see nothing nearer than .35 m, 1750 codes.
+inline constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kLeastOfFine = 1750;
 
 // A sensor's picture holds many different codes.
 [[nodiscard]] bool isMeasured(const CodeCount& count);
 
 // True for codes that leave out a large part of their range, or are a stereo camera's.
 [[nodiscard]] bool isDistances(const CodeCount& count);
+
+// True for distances in mm of a room which, at 5000 codes a metre, would begin nearer than a Kinect sees.
+[[nodiscard]] bool isTooNearForKinect(const CodeCount& count);
 
 // A stereo camera (RealSense) measures in even steps of disparity, so that twice as far away its distances are four
 // times as far apart, and half as many of them lie in twice the range. Of a picture whose codes reach the highest ones

@@ -84,7 +84,6 @@ TEST_F(Pictures, DepthGoesToTheNearestColourWithin20Ms) {
                                       "125 tum/depth/10.225.png"));
   EXPECT_THAT(film.notes, ElementsAre("1 of 3 colour pictures have no depth within 20 ms"));
   ASSERT_EQ(film.streams.size(), 2u);
-  EXPECT_EQ(film.streams[1].tags.at("DEPTH_UNIT"), "0.2");
   EXPECT_EQ(film.streams[1].tags.at("TITLE"), "depth");
 }
 
@@ -125,19 +124,6 @@ TEST_F(Pictures, OneRateIsAssumedForFoldersAndPatterns) {
     EXPECT_EQ(film.color.back(), "33.3333 n/2.png") << url;
     EXPECT_THAT(film.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
   }
-}
-
-// Redwood's times are no seconds, and its codes are mm.
-TEST_F(Pictures, SecondsAndListsAloneSpeakForTumsUnit) {
-  const auto saysUnit = [&](const std::string& name, const std::string& time) {
-    file(name + "/rgb/" + time + ".jpg"), file(name + "/depth/" + time + ".png");
-    return read(folder_ / name).streams.at(1).tags.contains("DEPTH_UNIT");
-  };
-  EXPECT_TRUE(saysUnit("t", "1305031102.160407"));
-  EXPECT_FALSE(saysUnit("r", "0000001-000000033369"));
-  EXPECT_FALSE(saysUnit("n", "1403636579763555584"));
-  file("n/associations.txt", "1 rgb/1403636579763555584.jpg 1 depth/1403636579763555584.png\n");
-  EXPECT_TRUE(saysUnit("n", "1403636579763555584")) << "a list";
 }
 
 // Kubric's layers in one folder; Sintel's and HoloLens' folders.

@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "app/media/reading/codes/measured_codes.h"
 #include "app/media/reading/depth_meaning.h"
 #include "app/media/reading/float_reading.h"
+#include "app/media/reading/recording_place.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/depth_frames.h"
 #include "tests/support/film/opened_film.h"
@@ -38,6 +41,16 @@ std::uint32_t sceneUnderTheSky(int c, int r) {
   return mm == 0 ? 0 : stereoMm(kSteps / mm);
 }
 
+template <class Sample>
+test::ClipTrack pictures(const char* format, Sample&& sample) {
+  return {.codec = "png",
+          .pix_fmt = format,
+          .width = kCols,
+          .height = kRows,
+          .frames = 1,
+          .sample = [sample](int k, int c, int r, int) { return static_cast<std::uint32_t>(sample(k, c, r)); }};
+}
+
 const KnownKind* kindIn(const Frame& frame) {
   return sensorKind(frame, CodeCount(frame));
 }
@@ -45,12 +58,7 @@ const KnownKind* kindIn(const Frame& frame) {
 TEST(SensorRange, AStereoCamerasDistancesMayReachTheHighestCode) {
   const test::TemporaryFolder folder;
   test::makeClip(folder / "a_depth.png",
-                 {test::ClipTrack{.codec = "png",
-                                  .pix_fmt = "gray16be",
-                                  .width = kCols,
-                                  .height = kRows,
-                                  .frames = 1,
-                                  .sample = [](int, int c, int r, int) { return sceneUnderTheSky(c, r); }}});
+                 {pictures("gray16be", [](int, int c, int r) { return sceneUnderTheSky(c, r); })});
   const test::OpenedFilm film = test::openFilm({.url = folder / "a_depth.png"});
   EXPECT_EQ(film.info.calibration.calibration.unit_mm, 1.0);
   EXPECT_EQ(film.info.calibration.calibration.polarity, DepthPolarity::NearIsLow);
@@ -97,6 +105,43 @@ TEST(SensorRange, FarViewsOfWhatIsNearForAKinectAreInMillimetres) {
   EXPECT_EQ(kindIn(picture(2000)), findKind("tum"));
   const Frame fine = picture(2000);
   EXPECT_THAT(readCodes(fine, CodeCount(fine), {}).offer, HasSubstr("--as ycb"));
+}
+
+// Recorders in mm lay out their folders as TUM does, whose codes are fifths of a mm.
+TEST(SensorRange, AFolderLaidOutAsTumsMayBeInMillimetres) {
+  const auto film = [](double times) {
+    const test::TemporaryFolder folder;
+    for (const char* const name : {"rgb", "depth"}) std::filesystem::create_directories(folder / name);
+    std::ofstream(folder / "associations.txt") << "1.5 rgb/1.png 1.5 depth/1.png\n";
+    test::makeClip(folder / "rgb/1.png", {pictures("rgb24", [](int k, int c, int r) { return 40u * k + c + r / 2; })});
+    test::makeClip(folder / "depth/1.png", {pictures("gray16be", [=](int, int c, int r) {
+                     return static_cast<std::uint32_t>(std::lround(times * distanceMm(c, r)));
+                   })});
+    return test::openFilm({.url = folder / "."});
+  };
+  const test::OpenedFilm mm = film(1), tum = film(5);
+  EXPECT_EQ(mm.info.calibration.calibration.unit_mm, 1.0);
+  EXPECT_THAT(mm.info.reading.offers, Contains(HasSubstr("--as tum")));
+  EXPECT_EQ(tum.info.calibration.calibration.unit_mm, 0.2);
+  for (const test::OpenedFilm* const of : {&mm, &tum}) EXPECT_NEAR(of->distanceAt(80, 54), distanceMm(80, 54), 1);
+}
+
+// Redwood's times are no seconds, and its codes are mm.
+TEST(SensorRange, SecondsAndListsAloneAreTums) {
+  const test::TemporaryFolder folder;
+  const auto kindOfDepth = [&](const std::string& name, const std::string& time) {
+    std::filesystem::create_directories(folder / (name + "/depth"));
+    std::ofstream(folder / (name + "/depth/" + time + ".png")) << "-";
+    return lookAtPlace(folder / (name + "/depth/" + time + ".png"), "").kind;
+  };
+  EXPECT_EQ(kindOfDepth("t", "1305031102.160407"), findKind("tum"));
+  EXPECT_EQ(kindOfDepth("r", "0000001-000000033369"), nullptr);
+  EXPECT_EQ(kindOfDepth("n", "1403636579763555584"), nullptr);
+  for (const char* const list : {"associations.txt", "associate.txt", "association.txt", "assoc.txt"}) {
+    std::ofstream(folder / ("n/" + std::string(list))) << "1 rgb/1.jpg 1 depth/1.png\n";
+    EXPECT_EQ(kindOfDepth("n", "1403636579763555584"), findKind("tum")) << list;
+    std::filesystem::remove(folder / ("n/" + std::string(list)));
+  }
 }
 
 // 65535 in metres: as arrays of floats have it that were divided by 1000.
