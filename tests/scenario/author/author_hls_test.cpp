@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -79,6 +80,24 @@ TEST_F(AuthorFilm, RemovesWhatAKilledRunOfTheSameNameHasLeft) {
   ASSERT_TRUE(make({.url = folder_ / "film.mkv"}, "out.m3u8"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out.m3u8.relievo-tmp-Ab3dE6"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "other.m3u8.relievo-tmp-Ab3dE6")) << "of another name";
+}
+
+// Removing a folder takes a descriptor, too.
+TEST_F(AuthorFilm, LeavesNothingWhereItRunsOutOfDescriptors) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  makeClip(folder_ / "depth.mkv", {depthTrack("gray", [](int, int, int) { return 9u; })});
+  int failed = 0, whole = 0;
+  for (int most = 4; most < 14; ++most) {
+    const std::string command = "exec </dev/null >/dev/null 2>&1; ulimit -n " + std::to_string(most) +
+                                "; exec " RELIEVO_BIN_DIR "/relievo-author --color " + (folder_ / "color.mkv") +
+                                " --depth " + (folder_ / "depth.mkv") + " -o " + (folder_ / "out.m3u8");
+    const bool done = std::system(command.c_str()) == 0;  // NOLINT(bugprone-command-processor): the test's command
+    ++(done ? whole : failed);
+    EXPECT_THAT(made(), done ? testing::SizeIs(2) : testing::SizeIs(0)) << "with " << most << " descriptors";
+    for (const std::string& name : made()) std::filesystem::remove_all(folder_ / name);
+  }
+  EXPECT_GT(failed, 0);
+  EXPECT_GT(whole, 0);
 }
 
 TEST_F(AuthorFilm, ReplacesAnHlsFilmWholeWhenForced) {

@@ -42,7 +42,7 @@ mode_t mask() {
 
 // The temporary folder beside the playlist. Access to it, its removal included, goes through calls that time out.
 struct Apart {
-  Apart(const std::string& path, const std::string& segments) {
+  Apart(const std::string& path, const std::string& segments_name) {
     removeLitter(path);
     std::string pattern = litterPattern(path);
     if (::mkdtemp(pattern.data()) == nullptr) {
@@ -50,10 +50,16 @@ struct Apart {
                               : Error{ErrorCode::Io, errno, "it cannot be written there; choose another folder"};
       return;
     }
+    held.reset(::open(pattern.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!held.valid()) {
+      error = Error{ErrorCode::Exhausted, errno, kCannotWrite};
+      ::rmdir(pattern.c_str());
+      return;
+    }
     folder = pattern;
-    held.reset(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    segments = folder / segments_name;
     holdLitter(held.get());
-    if (::chmod(folder.c_str(), 0777 & ~mask()) != 0 || ::mkdir((folder / segments).c_str(), 0777) != 0) {
+    if (::chmod(folder.c_str(), 0777 & ~mask()) != 0 || ::mkdir(segments.c_str(), 0777) != 0) {
       const bool is_long = errno == ENAMETOOLONG;
       error = Error{ErrorCode::Io, errno, is_long ? "its name is too long; choose a shorter one" : kCannotWrite};
     }
@@ -64,12 +70,14 @@ struct Apart {
 
   // Removes the folder once; any thread.
   void remove() {
+    if (folder.empty() || removed.exchange(true)) return;
+    held.reset();  // removing a folder takes a descriptor, and there may be no other
     std::error_code ignored;
-    if (!folder.empty() && !removed.exchange(true)) fs::remove_all(folder, ignored);
+    for (const fs::path& each : {segments, folder}) fs::remove_all(each, ignored);
   }
 
   std::atomic<bool> removed{false};
-  fs::path folder;
+  fs::path folder, segments;
   UniqueFd held;  // lock on the folder, so that no other run deletes it as a leftover
   std::optional<Error> error;
 };
