@@ -16,6 +16,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
+#include "drivers/ffmpeg/opening/later_parts.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "hal/media/video_decoder.h"
 #include "platform/log.h"
@@ -68,16 +69,27 @@ void askBusyServerAgain(AVDictionary*& options) {
   av_dict_set(&options, "reconnect_delay_max", "1", AV_DICT_DONT_OVERWRITE);
 }
 
+// FFmpeg does not close what was opened here.
+bool isOpenedHere(const AVIOContext* file) noexcept {
+  return isLocalFile(file) || isLaterParts(file);
+}
+
+void closeOpenedHere(AVIOContext* file) noexcept {
+  if (isLocalFile(file)) closeLocalFile(file);
+  else if (isLaterParts(file)) closeLaterParts(file);
+}
+
 }  // namespace
 
 void FormatCloser::operator()(AVFormatContext* context) const noexcept {
-  AVIOContext* const file = isLocalFile(context->pb) ? context->pb : nullptr;
+  AVIOContext* const file = isOpenedHere(context->pb) ? context->pb : nullptr;
   avformat_close_input(&context);
-  if (file != nullptr) closeLocalFile(file);
+  closeOpenedHere(file);
 }
 
-Result<Input::Opened> Input::open(const std::string& url) {
+Result<Input::Opened> Input::open(const std::string& url, Duration parts_from) {
   watch_.begin(kOpenPatience);
+  parts_from_ = parts_from;
   auto address = parseAddress(url);
   if (!address) return std::unexpected(address.error());
   const Error late = lateOpening(address->way);
@@ -97,12 +109,18 @@ Result<Input::Opened> Input::open(const std::string& url) {
     avformat_free_context(context);
     return std::unexpected(watch_.explain(opened.error()));
   }
+  if (file != nullptr && parts_from > Duration(0) && shorten(context, file) < 0) {
+    avformat_free_context(context);
+    return std::unexpected(openError(AVERROR(ENOMEM)));
+  }
   context->pb = file;
   AVDictionary* options = optionsFor(*address);
+  // FFmpeg would ask for the next list on the connection of one that was read here.
+  if (parts_from > Duration(0)) av_dict_set(&options, "http_persistent", "0", 0);
   LibraryWords words;
   const int opened = avformat_open_input(&context, address->url.c_str(), nullptr, &options);
   av_dict_free(&options);
-  if (opened < 0 && file != nullptr) closeLocalFile(file);
+  if (opened < 0) closeOpenedHere(file == nullptr ? first_list_ : file);
   if (opened < 0) {
     noteLost();
     if (lost_ > 0 && !watch_.cancelled()) tellLost(first_lost_);
@@ -166,7 +184,14 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
   if (self.missing_ != url) self.noteLost();
-  const int opened = self.openAny(context, file, url, flags, options);
+  int opened = self.openAny(context, file, url, flags, options);
+  if (opened >= 0 && self.parts_from_ > Duration(0) && (isList(url) || self.url_ == url)) {
+    opened = self.shorten(context, *file);
+    if (file == &context->pb) {  // FFmpeg would take it for its own
+      context->flags |= AVFMT_FLAG_CUSTOM_IO;
+      self.first_list_ = *file;
+    }
+  }
   if (opened >= 0) {
     self.any_part_ = self.any_part_ || (self.url_ != url && !isList(url));
     self.in_gap_ = false;
@@ -206,9 +231,15 @@ void Input::tellLost(const std::string& part) const {
         lost_, part.c_str());
 }
 
+int Input::shorten(AVFormatContext* context, AVIOContext*& list) {
+  AVIOContext* const later = openLaterParts(*list, parts_from_);
+  static_cast<void>(closeAny(context, std::exchange(list, later)));
+  return later == nullptr ? AVERROR(ENOMEM) : 0;
+}
+
 int Input::closeAny(AVFormatContext* context, AVIOContext* file) {
-  if (!isLocalFile(file)) return static_cast<Input*>(context->opaque)->close_file_(context, file);
-  closeLocalFile(file);
+  if (!isOpenedHere(file)) return static_cast<Input*>(context->opaque)->close_file_(context, file);
+  closeOpenedHere(file);
   return 0;
 }
 

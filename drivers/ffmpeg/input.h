@@ -33,7 +33,8 @@ class Input {
     Address address;
     MonotonicTime arrival;
   };
-  [[nodiscard]] Result<Opened> open(const std::string& url);
+  // `parts_from`: lists are read without the parts before that time of theirs (later_parts.h).
+  [[nodiscard]] Result<Opened> open(const std::string& url, Duration parts_from = Duration(0));
   // Of `open` and of all that reads the container.
   [[nodiscard]] Watch& watch() noexcept { return watch_; }
   // Call before each read. Resets the number of files and addresses that the container may still open.
@@ -66,12 +67,15 @@ class Input {
   void noteLost();
   void tellLost(const std::string& part) const;
   [[nodiscard]] bool isUnsure(std::int64_t place) const noexcept;
+  [[nodiscard]] int shorten(AVFormatContext* context, AVIOContext*& list);
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
   Watch watch_;
   decltype(AVFormatContext::io_open) open_file_ = nullptr;  // FFmpeg's own
   decltype(AVFormatContext::io_close2) close_file_ = nullptr;
   std::string url_;
+  Duration parts_from_{0};
+  AVIOContext* first_list_ = nullptr;  // the container's own, if it was shortened
   bool reads_files_ = false;
   int opens_ = 0;
   bool opened_ = false;

@@ -16,6 +16,7 @@
 #include "drivers/ffmpeg/file_times.h"
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/opening/opening.h"
+#include "drivers/ffmpeg/opening/seeks.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
@@ -161,12 +162,7 @@ class FfmpegSource final : public MediaSource {
 
   // A subtitle that begins before the sought position is not read, and may be what lasts until the film's end.
   Duration missingTime() const noexcept override {
-    return gaps_.missing() + (sought_ && hasSubtitles() ? Duration(0) : end_.missing());
-  }
-
-  bool hasSubtitles() const noexcept {
-    const std::span streams(context_->streams, context_->nb_streams);
-    return std::ranges::any_of(streams, [](const AVStream* stream) { return kindOf(*stream) == StreamKind::Subtitle; });
+    return gaps_.missing() + (sought_ && hasSubtitles(*context_) ? Duration(0) : end_.missing());
   }
 
   // False for packets with only side data, and for those of another programme that were read before this one was
@@ -231,36 +227,39 @@ class FfmpegSource final : public MediaSource {
   Result<void> seekTo(MediaTime target) override {
     if (watch().cancelled()) return std::unexpected(watch().explain({}));
     const bool in_vain =
-        seeksByBytes() && context_->pb != nullptr && (context_->pb->seekable & AVIO_SEEKABLE_NORMAL) == 0;
+        seeksByBytes(*context_) && context_->pb != nullptr && (context_->pb->seekable & AVIO_SEEKABLE_NORMAL) == 0;
     if (in_vain && fresh_) return {};  // FFmpeg would stay at its place and call that sought, as here is right
     if (opener_.input().isPipe() || in_vain) return fail(ErrorCode::Unsupported, kCannotSeek);
     if (!timed_) return openContext();  // pictures without times are counted from the beginning
+    if (isListOfMp4(*context_)) return seekInList(target);
     watch().begin(kReadPatience, lateReading(address_.way));
     const bool onwards = target > MediaTime{};
-    int sought = !onwards && seeksByBytes() ? av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) : AVERROR(ENOSYS);
-    // Seeks by key frames of the leading stream; to the beginning, of the stream that begins first.
-    const AVStream& stream = *context_->streams[onwards ? leading_stream_ : earliest_stream_];
-    const MediaTime last_second(std::max(Duration(0), duration() - std::chrono::seconds(1)));
-    if (sought < 0) sought = seekToKeyframe(stream, target);
-    if (sought < 0) sought = seekToKeyframe(stream, std::min(target, last_second));  // failed: too near the end
+    int sought =
+        !onwards && seeksByBytes(*context_) ? av_seek_frame(context_.get(), -1, 0, AVSEEK_FLAG_BYTE) : AVERROR(ENOSYS);
+    const SoughtPlace place{target, start_, duration(), leading_stream_, earliest_stream_};
+    if (sought < 0) sought = seekByKeyFrames(*context_, place);
     if (sought < 0) return std::unexpected(watch().explain({ErrorCode::Unsupported, osError(sought), kCannotSeek}));
-    beginTimes();
     opener_.input().beginElsewhere();
-    end_.seek(target);
-    sought_ = onwards;
+    beginAt(target);
     return {};
   }
 
-  int seekToKeyframe(const AVStream& stream, MediaTime target) const noexcept {
-    const Duration time = target.time_since_epoch() + start_;
-    const std::int64_t ticks = av_rescale_q(time.count(), kNanosecond, stream.time_base);
-    return av_seek_frame(context_.get(), stream.index, ticks, AVSEEK_FLAG_BACKWARD);
+  void beginAt(MediaTime target) noexcept {
+    beginTimes();
+    end_.seek(target);
+    sought_ = target > MediaTime{};
   }
 
-  // In a multiplex without an index FFmpeg searches by time and loses the picture that it lands in. To keep the first
-  // picture, seek to the beginning by byte position.
-  bool seeksByBytes() const noexcept {
-    return (context_->iformat->flags & (AVFMT_TS_DISCONT | AVFMT_NO_BYTE_SEEK)) == AVFMT_TS_DISCONT;
+  // The times stay those of the whole film.
+  Result<void> seekInList(MediaTime target) {
+    constexpr Duration kEarlier = std::chrono::milliseconds(100);  // a list rounds the lengths of its parts
+    const Duration last_second = duration() - std::chrono::seconds(1);
+    auto opened = opener_.open(url_, std::min(target.time_since_epoch() - kEarlier, last_second));
+    if (!opened) return std::unexpected(opened.error());
+    context_ = std::move(opened->container);
+    chooseProgramme(*context_);
+    beginAt(target);
+    return {};
   }
 
   void closeSource() noexcept override {

@@ -12,8 +12,8 @@
 namespace relievo::ffmpeg {
 namespace {
 
-Result<Input::Opened> openKept(const std::shared_ptr<Input>& input, const std::string& url) {
-  auto opened = input->open(url);
+Result<Input::Opened> openKept(const std::shared_ptr<Input>& input, const std::string& url, Duration parts_from) {
+  auto opened = input->open(url, parts_from);
   if (opened) opened->container.get_deleter().input = input;
   return opened;
 }
@@ -24,13 +24,13 @@ void passOn(Watch& watch) {
   if (flag != nullptr && *flag) watch.cancel();
 }
 
-Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::string& url) {
+Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::string& url, Duration parts_from) {
   input->watch().begin(kOpenPatience);
   passOn(input->watch());  // a short film would be open before the first look
   const auto opened = std::make_shared<Result<Input::Opened>>();
-  const auto work = [input, url, opened] {
+  const auto work = [input, url, parts_from, opened] {
     const CancelsAnswers cancels(input->watch().cancelFlag());
-    *opened = openKept(input, url);
+    *opened = openKept(input, url, parts_from);
   };
   const auto ended = runApart(work, [&watch = input->watch()] {
     passOn(watch);
@@ -46,11 +46,11 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
 
 }  // namespace
 
-Result<Input::Opened> Opener::open(const std::string& url) {
+Result<Input::Opened> Opener::open(const std::string& url, Duration parts_from) {
   const auto input = std::make_shared<Input>();
   watch(input);
   if (input_->watch().cancelled()) input->watch().cancel();
-  auto opened = openApart(input, url);
+  auto opened = openApart(input, url, parts_from);
   if (opened) {
     input_ = input;
     return opened;

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Seeks in HLS films that the ffmpeg program has made, local ones and from a server.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "drivers/ffmpeg/opening/later_parts.h"
+#include "tests/support/network/http_server.h"
+#include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
+
+namespace relievo {
+namespace {
+
+using ffmpeg::laterParts;
+using test::TemporaryFolder;
+
+constexpr const char* kWhole =
+    "#EXTM3U\n#EXT-X-TARGETDURATION:4\n#EXT-X-MEDIA-SEQUENCE:7\n#EXT-X-MAP:URI=\"init.mp4\"\n"
+    "#EXTINF:4.0,\na.m4s\n#EXTINF:2.5,\n#EXT-X-BYTERANGE:10@0\nb.m4s\n#EXTINF:3,\r\nc.m4s\r\n#EXT-X-ENDLIST\n";
+
+TEST(LaterParts, AreThoseThatEndLater) {
+  const std::string head = "#EXTM3U\n#EXT-X-MEDIA-SEQUENCE:";
+  const std::string map = "\n#EXT-X-TARGETDURATION:4\n#EXT-X-MAP:URI=\"init.mp4\"\n";
+  const std::string last = "#EXTINF:3,\r\nc.m4s\r\n#EXT-X-ENDLIST\n";
+  const std::string second = "#EXTINF:2.5,\n#EXT-X-BYTERANGE:10@0\nb.m4s\n";
+  EXPECT_EQ(laterParts(kWhole, fromSeconds(4.1)), head + "8" + map + second + last);
+  EXPECT_EQ(laterParts(kWhole, fromSeconds(6.4)), head + "8" + map + second + last);
+  EXPECT_EQ(laterParts(kWhole, fromSeconds(6.5)), head + "9" + map + last);
+  EXPECT_EQ(laterParts(kWhole, fromSeconds(1)), head + "7" + map + "#EXTINF:4.0,\na.m4s\n" + second + last);
+}
+
+TEST(LaterParts, OtherListsStayAsTheyAre) {
+  const std::string whole = kWhole;
+  std::string live = whole.substr(0, whole.find("#EXT-X-ENDLIST"));
+  std::string jumps = whole, following = whole;
+  jumps.insert(jumps.find("#EXTINF:3"), "#EXT-X-DISCONTINUITY\n");
+  following.erase(following.find("@0"), 2);
+  for (const std::string& list :
+       {live, jumps, following, std::string("#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\na.m3u8\n"),
+        std::string("#EXTM3U\na.mkv\nb.mkv\n"), std::string()}) {
+    EXPECT_EQ(laterParts(list, fromSeconds(5)), list);
+  }
+}
+
+class ListSeek : public testing::Test {
+ protected:
+  // 8 s in parts of 1 s, each of which begins with a key frame. The sound begins 20 ms earlier, as AAC does in
+  // Matroska.
+  void SetUp() override {
+    const std::string command =
+        "cd " + folder_ / "" +
+        " && ffmpeg -v error -f lavfi -i testsrc2=s=64x48:r=25:d=8 -f lavfi -i sine=d=8 -c:v libx264 -g 25 -bf 0 -c:a "
+        "aac "
+        "film.mkv && ffmpeg -v error -i film.mkv -c copy -hls_time 1 -hls_playlist_type vod -hls_segment_type fmp4 "
+        "mp4.m3u8 && ffmpeg -v error -i film.mkv -c copy -hls_time 1 -hls_playlist_type vod ts.m3u8";
+    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT
+    writeFile(folder_ / "all.m3u8",
+              "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=300000\nmp4.m3u8\n#EXT-X-STREAM-INF:BANDWIDTH=200000\nmp4.m3u8\n");
+  }
+  // After a seek the pictures begin with a key frame at most a part's length before the target, and go on to the end.
+  static void expectSeeks(const std::string& url) {
+    SCOPED_TRACE(url);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(url));
+    for (const double target_s : {5.5, 0.0, 7.9, 2.5}) {
+      for (int i = 0; i < 40; ++i) ASSERT_TRUE(source->read());  // as while it plays
+      ASSERT_TRUE(source->seek(mediaTime(target_s))) << target_s;
+      std::optional<double> first_s;
+      double last_s = 0;
+      for (const Packet& packet : readAll(*source)) {
+        if (packet.stream != 0 || !packet.pts) continue;
+        EXPECT_TRUE(first_s || packet.keyframe);
+        first_s = first_s.value_or(toSeconds(packet.pts->time_since_epoch()));
+        last_s = std::max(last_s, toSeconds(packet.pts->time_since_epoch()));
+      }
+      ASSERT_TRUE(first_s) << target_s;
+      EXPECT_LE(*first_s, target_s + 0.03);
+      EXPECT_GE(*first_s, target_s - 1.15);
+      EXPECT_NEAR(last_s, 7.96, 0.1) << target_s;
+      ASSERT_TRUE(source->seek(mediaTime(0)));
+    }
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ListSeek, FindsItsPictures) {
+  for (const char* list : {"mp4.m3u8", "ts.m3u8", "all.m3u8"}) expectSeeks(folder_ / list);
+}
+
+TEST_F(ListSeek, FindsItsPicturesOnAServer) {
+  const test::HttpServer server(folder_ / "");
+  for (const char* list : {"mp4.m3u8", "ts.m3u8", "all.m3u8"}) expectSeeks(server.url(list));
+}
+
+}  // namespace
+}  // namespace relievo
