@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What users of mpv and Kodi do without reading anything, in one run of the program in a window: real keys, a real
 // mouse and a real drop on an X server of the test's own; judged by the player's state and by the picture.
-#include "tests/scenario/player_habits.h"
+#include "tests/scenario/habits/player_habits.h"
 
 namespace relievo::test {
 

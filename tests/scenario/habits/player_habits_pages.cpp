@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pages over the picture, speed and repeated parts, and a drop.
-#include "tests/scenario/player_habits.h"
+#include "tests/scenario/habits/player_habits.h"
 
 namespace relievo::test {
 
