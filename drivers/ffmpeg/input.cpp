@@ -17,6 +17,7 @@
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/opening/later_parts.h"
+#include "drivers/ffmpeg/opening/part_languages.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "hal/media/video_decoder.h"
 #include "platform/log.h"
@@ -139,6 +140,7 @@ Result<Input::Opened> Input::open(const std::string& url, Duration parts_from) {
   const bool gave_up = reads_files_ ? watch_.givesUp() : watch_.cancelled();  // a slow stream may be known enough
   if (words.containerWarned()) doubtful_until_ = context->pb == nullptr ? kAllBytes : avio_tell(context->pb);
   if (found < 0 || gave_up) return std::unexpected(watch_.explain(refusal(*address, found, words.last())));
+  readLanguages(*owned);
   if (isTextArt(*context)) return std::unexpected(refusal(*address, AVERROR_INVALIDDATA, {}));
   return Opened{.container = std::move(owned), .address = std::move(*address), .arrival = arrival};
 }
@@ -193,6 +195,7 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
     }
   }
   if (opened >= 0) {
+    if (self.first_part_.empty() && self.url_ != url && !isList(url)) self.first_part_ = url;
     self.any_part_ = self.any_part_ || (self.url_ != url && !isList(url));
     self.in_gap_ = false;
     self.missing_.clear();
@@ -235,6 +238,14 @@ int Input::shorten(AVFormatContext* context, AVIOContext*& list) {
   AVIOContext* const later = openLaterParts(*list, parts_from_);
   static_cast<void>(closeAny(context, std::exchange(list, later)));
   return later == nullptr ? AVERROR(ENOMEM) : 0;
+}
+
+void Input::readLanguages(AVFormatContext& list) {
+  if (first_part_.empty() || !lacksLanguages(list)) return;
+  AVIOContext* part = nullptr;
+  if (openAny(&list, &part, first_part_.c_str(), AVIO_FLAG_READ, nullptr) < 0) return;
+  takeLanguages(list, *part);
+  static_cast<void>(closeAny(&list, part));
 }
 
 int Input::closeAny(AVFormatContext* context, AVIOContext* file) {

@@ -68,6 +68,7 @@ class Input {
   void tellLost(const std::string& part) const;
   [[nodiscard]] bool isUnsure(std::int64_t place) const noexcept;
   [[nodiscard]] int shorten(AVFormatContext* context, AVIOContext*& list);
+  void readLanguages(AVFormatContext& list);
   static int closeAny(AVFormatContext* context, AVIOContext* file);
 
   Watch watch_;
@@ -79,7 +80,8 @@ class Input {
   bool reads_files_ = false;
   int opens_ = 0;
   bool opened_ = false;
-  std::string missing_;  // the part that could not be opened just now
+  std::string first_part_;  // of a list
+  std::string missing_;     // the part that could not be opened just now
   std::string first_lost_;
   bool in_gap_ = false;  // until a part can be opened
   unsigned lost_ = 0;    // parts that could not be opened
