@@ -40,6 +40,14 @@ std::string describe(const AVStream& stream) {
   return text;
 }
 
+// How text is kept for a film that holds none: the player finds files beside it by its name.
+std::string commandFor(const AVStream& stream, const std::string& path) {
+  const std::string language = tag(stream.metadata, "language");
+  const bool known = !language.empty() && language != "und";
+  return ", and so can a file beside the film: ffmpeg -i \"" + path + "\" -map 0:" + std::to_string(stream.index) +
+         " FILM" + (known ? "." + language : "") + ".srt";
+}
+
 // Leaves out tags that a muxer writes itself, and the source's depth tags: the film has its own.
 void copyTags(AVDictionary** to, const AVDictionary* from) {
   constexpr std::array kOwn{"major_brand", "minor_version", "compatible_brands", "encoder", "DURATION"};
@@ -133,8 +141,10 @@ Result<void> KeptTracks::addStream(const AVStream& stream) {
     if (converter) copy.converter = std::move(*converter);
   }
   if (!held && !copy.converter) {
+    const bool is_file = kind_ == FilmKind::TransportStream || kind_ == FilmKind::Hls;
     left_out_.push_back(describe(stream) + ": left out, since " + nameOf(kind_) + " cannot hold it" +
-                        (kind_ == FilmKind::Matroska ? "" : "; a .mkv can"));
+                        (kind_ == FilmKind::Matroska ? "" : "; a .mkv can") +
+                        (is_file && isTextSubtitle(codec) ? commandFor(stream, path_) : ""));
     return {};
   }
   copy.stream = avformat_new_stream(film_, nullptr);
