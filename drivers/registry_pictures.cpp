@@ -53,6 +53,7 @@ Result<StreamInfo> describePicture(const std::string& path) {
   for (const StreamInfo& stream : source->streams()) {
     if (stream.kind != StreamKind::Video) continue;
     StreamInfo picture = stream;
+    if (!source->notes().empty()) picture.tags[kNoteTag] = source->notes().front();
     lookInside(path, picture);
     return picture;
   }

@@ -10,6 +10,7 @@
 #include "drivers/ffmpeg/coding.h"
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "drivers/ffmpeg/library.h"
+#include "drivers/ffmpeg/pictures/photo_size.h"
 #include "drivers/ffmpeg/pictures/picture.h"
 #include "drivers/ffmpeg/pictures/picture_memory.h"
 #include "drivers/ffmpeg/views/view_pairs.h"
@@ -87,7 +88,7 @@ class FfmpegDecoder final : public VideoDecoder {
     if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
       return fail(ErrorCode::Corrupt, "the video stream's parameters are invalid; convert the film");
     }
-    context_->max_pixels = kMostSamples;  // also for a film whose size changes
+    context_->max_pixels = mostSamples(codec->id);  // also for a film whose size changes
     context_->thread_count = kThreads;
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;
@@ -177,7 +178,7 @@ class FfmpegDecoder final : public VideoDecoder {
     }
     frame.pts = pts;
     frame.duration = duration;
-    return frame;
+    return withinLimit(std::move(frame));
   }
 
   // The picture's own time, or one period after the previous picture.

@@ -18,8 +18,8 @@
 #include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/opening/later_parts.h"
 #include "drivers/ffmpeg/opening/part_languages.h"
+#include "drivers/ffmpeg/pictures/photo_size.h"
 #include "drivers/ffmpeg/refusal.h"
-#include "hal/media/video_decoder.h"
 #include "platform/log.h"
 #include "platform/told_count.h"
 
@@ -38,8 +38,8 @@ constexpr Error kNoParts{ErrorCode::NotFound, 0,
 // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
 int findStreams(AVFormatContext& context) {
   std::vector<AVDictionary*> options(context.nb_streams, nullptr);
-  for (AVDictionary*& of_stream : options) {
-    av_dict_set_int(&of_stream, "max_pixels", VideoDecoder::kMostSamples, 0);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    av_dict_set_int(&options[i], "max_pixels", mostSamples(context.streams[i]->codecpar->codec_id), 0);
   }
   const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
   for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);

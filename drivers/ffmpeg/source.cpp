@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Media source on libavformat: describes a container, reads it and seeks; every wait is interruptible and has a
-// time-out.
-
+// Media source on libavformat: describes a container, reads it, seeks; every wait is interruptible and has a time-out.
 #include <algorithm>
 #include <cerrno>
 #include <deque>
@@ -17,6 +15,7 @@
 #include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/opening/opening.h"
 #include "drivers/ffmpeg/opening/seeks.h"
+#include "drivers/ffmpeg/pictures/photo_size.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "drivers/ffmpeg/stream_tags.h"
 #include "drivers/ffmpeg/watch.h"
@@ -110,6 +109,7 @@ class FfmpegSource final : public MediaSource {
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
       auto stream = describeStream(*context_->streams[i], timed_);
       if (!stream) return std::unexpected(stream.error());
+      if (auto note = halveSize(*stream)) description.notes.push_back(std::move(*note));
       if (stream->duration == Duration(0)) stream->duration = description.duration;
       if (const auto own = stream_tags_.find(stream->index); own != stream_tags_.end()) {
         stream->tags.insert(own->second.begin(), own->second.end());

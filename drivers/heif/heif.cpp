@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/heif/heif_handle.h"
+#include "hal/media/halved.h"
 
 namespace relievo {
 namespace heif {
@@ -36,9 +37,7 @@ using namespace heif;
 // Decoded, with its rotation applied. Null if it is damaged or too large.
 std::shared_ptr<const heif_image> decode(const heif_image_handle* handle, heif_colorspace space, heif_chroma chroma) {
   const int cols = heif_image_handle_get_width(handle), rows = heif_image_handle_get_height(handle);
-  if (cols < 1 || rows < 1 || !isSoundSize(static_cast<std::uint64_t>(cols), static_cast<std::uint64_t>(rows))) {
-    return nullptr;
-  }
+  if (cols < 1 || rows < 1 || std::int64_t{cols} * rows > kMostOfPhoto) return nullptr;
   heif_image* image = nullptr;
   if (failed(heif_decode_image(handle, &image, space, chroma, nullptr))) return nullptr;
   return {ImagePtr(image)};
@@ -59,13 +58,21 @@ std::optional<FilePicture> pictureOf(std::shared_ptr<const heif_image> image, he
   return FilePicture{.width = frame.width, .height = frame.height, .frame = std::move(frame)};
 }
 
+// The picture, halved if it is larger than a film's may be.
+std::optional<FilePicture> withinLimit(FilePicture picture) {
+  if (std::int64_t{picture.width} * picture.height <= VideoDecoder::kMostSamples) return picture;
+  auto half = halved(picture.frame);
+  if (!half) return std::nullopt;
+  return FilePicture{.width = half->width, .height = half->height, .frame = std::move(*half)};
+}
+
 std::optional<FilePicture> readRgb(const heif_image_handle* handle) {
   if (handle == nullptr) return std::nullopt;
   auto picture = pictureOf(decode(handle, heif_colorspace_RGB, heif_chroma_interleaved_RGB), heif_channel_interleaved);
   if (!picture) return picture;
   picture->frame.model = ColorModel::Rgb;
   for (std::uint8_t k = 0; k < 3; ++k) picture->frame.components[k] = {.offset_bytes = k, .step_bytes = 3, .bits = 8};
-  return picture;
+  return withinLimit(std::move(*picture));
 }
 
 std::optional<FilePicture> readColor(std::span<const std::uint8_t> file) {
@@ -99,7 +106,7 @@ std::optional<FilePicture> readDepth(std::span<const std::uint8_t> file) {
   if (!picture || bits < 8 || bits > 16) return std::nullopt;
   picture->frame.components[0] = {.step_bytes = static_cast<std::uint8_t>(bits > 8 ? 2 : 1),
                                   .bits = static_cast<std::uint8_t>(bits)};
-  return picture;
+  return withinLimit(std::move(*picture));
 }
 
 }  // namespace

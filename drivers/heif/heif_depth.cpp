@@ -9,6 +9,7 @@
 #include "drivers/heif/heif.h"
 #include "drivers/heif/heif_handle.h"
 #include "drivers/photo/apple_depth.h"
+#include "hal/media/halved.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
 
@@ -66,6 +67,12 @@ bool beginsLikeHeif(std::span<const std::uint8_t> bytes) {
   return false;
 }
 
+// A line for the user if the picture is halved.
+std::string noteOf(const heif_image_handle* handle) {
+  const int cols = heif_image_handle_get_width(handle), rows = heif_image_handle_get_height(handle);
+  return std::int64_t{cols} * rows > VideoDecoder::kMostSamples ? halvedLine(cols, rows) : "";
+}
+
 std::vector<PhotoPart> viewsOf(const PhotoBytes& file) {
   return {
       PhotoPart{.stream = {.codec = kHeifLeft.codec, .tags = {{kViewTag, "left"}}}, .coded = *file, .owner = file},
@@ -75,7 +82,8 @@ std::vector<PhotoPart> viewsOf(const PhotoBytes& file) {
 std::vector<PhotoPart> partsOf(const PhotoBytes& file) {
   const Photo photo = openPhoto(*file);
   if (!photo.depth) return photo.color && stereoPairIn(*file) ? viewsOf(file) : std::vector<PhotoPart>{};
-  return {PhotoPart{.stream = {.codec = kHeifColor.codec}, .coded = *file, .owner = file},
+  return {PhotoPart{
+              .stream = {.codec = kHeifColor.codec}, .coded = *file, .owner = file, .note = noteOf(photo.color.get())},
           PhotoPart{.stream = {.codec = kHeifDepth.codec, .tags = tagsOf(photo)}, .coded = *file, .owner = file}};
 }
 

@@ -49,6 +49,7 @@ class PhotoSource final : public MediaSource {
       part.stream.kind = StreamKind::Video;
       part.stream.counted = true;
       description.streams.push_back(part.stream);
+      if (!part.note.empty()) description.notes.push_back(part.note);
     }
     return description;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // HEIC portraits, put together box by box around pictures that FFmpeg has coded.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,6 +60,25 @@ TEST_F(HeifPhoto, DisparityIsDepthBesideTheColour) {
   for (int c = 3; c < kCols; c += 9) {
     ASSERT_NEAR(film.distanceAt(c, 30), millimetresAt(c, 30), 0.012 * millimetresAt(c, 30)) << c;
   }
+}
+
+// An iPhone's photos of 24 megapixels are larger than a film's pictures may be.
+TEST_F(HeifPhoto, ALargePhotoIsHalved) {
+  constexpr int kWide = 5120, kHigh = 3328;  // 17 million samples
+  const auto color = [](int k, int c, int r, int) {
+    return k == 0 ? static_cast<std::uint32_t>(c / 32 + r / 64) : 128u;
+  };
+  const auto depth = [](int k, int c, int r, int) { return k == 0 ? disparityCode(c, r) : 128u; };
+  const std::string path = folder_ / "a.heic";
+  std::ofstream(path, std::ios::binary) << test::heicFile(test::hevcPicture(color, kWide, kHigh),
+                                                          test::hevcPicture(depth), {.xmp = kXmp});
+  const test::OpenedFilm film = test::openFilm({.url = path});
+  ASSERT_TRUE(film.info.has_depth);
+  EXPECT_EQ(film.info.color_width, kWide / 2);
+  EXPECT_EQ(film.pair.color.height, kHigh / 2);
+  EXPECT_NEAR(test::sampleAt(film.pair.color, 1, 2400, 1600), 4800 / 32 + 3200 / 64, 2);
+  EXPECT_THAT(film.info.notes, testing::Contains(testing::HasSubstr("a photo of 5120 x 3328")));
+  EXPECT_NEAR(film.distanceAt(60, 30), millimetresAt(60, 30), 0.012 * millimetresAt(60, 30));
 }
 
 TEST_F(HeifPhoto, BothPicturesComeUpright) {

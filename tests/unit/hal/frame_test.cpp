@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "hal/media/halved.h"
+
 namespace relievo {
 namespace {
 
@@ -133,6 +135,56 @@ TEST(FrameCrop, KeepsThePictureAlive) {
   EXPECT_EQ(owner.use_count(), 2);
   part = Frame{};
   EXPECT_EQ(owner.use_count(), 1);
+}
+
+// Every sample of the half equals the whole's at twice its place.
+void expectHalfOf(const Frame& whole) {
+  const auto half = halved(whole);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(half->width, (whole.width + 1) / 2);
+  EXPECT_EQ(half->height, (whole.height + 1) / 2);
+  EXPECT_EQ(half->pts, whole.pts);
+  const int components = whole.model == ColorModel::Gray ? 1 : 3;
+  for (int i = 0; i < components; ++i) {
+    const bool chroma = whole.model == ColorModel::Yuv && i > 0;
+    const int x = chroma ? whole.chroma_shift_x : 0, y = chroma ? whole.chroma_shift_y : 0;
+    for (int r = 0; r < (half->height + y) >> y; ++r) {
+      for (int c = 0; c < (half->width + x) >> x; ++c) {
+        ASSERT_EQ(sampleAt(*half, i, c, r), sampleAt(whole, i, 2 * c, 2 * r)) << i << " at " << c << ", " << r;
+      }
+    }
+  }
+}
+
+TEST(FrameHalved, KeepsEverySecondSampleOfEachLayout) {
+  for (const int more : {0, 1}) {  // even and odd sizes
+    Picture gray(ColorModel::Gray);
+    gray.frame.components[0] = {.step_bytes = 2, .bits = 16};
+    gray.frame.planes[0] = {gray.at(0), 48};
+    Picture planar(ColorModel::Yuv);
+    planar.frame.chroma_shift_x = planar.frame.chroma_shift_y = 1;
+    planar.frame.components[1] = {.plane = 1};
+    planar.frame.components[2] = {.plane = 2};
+    planar.frame.planes = {Plane{planar.at(0), 20}, Plane{planar.at(1000), 12}, Plane{planar.at(2000), 12}, Plane{}};
+    Picture packed(ColorModel::Rgb);
+    for (std::uint8_t i = 0; i < 3; ++i) packed.frame.components[i] = {.offset_bytes = i, .step_bytes = 4};
+    packed.frame.planes[0] = {packed.at(1024), -72};  // upside down
+    for (Picture* const picture : {&gray, &planar, &packed}) {
+      picture->frame.width += more;
+      picture->frame.height += more;
+      expectHalfOf(picture->frame);
+    }
+  }
+}
+
+TEST(FrameHalved, PackedYuvIsRefused) {
+  Picture picture(ColorModel::Yuv);
+  picture.frame.chroma_shift_x = 1;
+  picture.frame.components[0] = {.offset_bytes = 0, .step_bytes = 2};
+  picture.frame.components[1] = {.offset_bytes = 1, .step_bytes = 4};
+  picture.frame.components[2] = {.offset_bytes = 3, .step_bytes = 4};
+  picture.frame.planes[0] = {picture.at(0), 36};
+  EXPECT_FALSE(halved(picture.frame));
 }
 
 TEST(GrayFrame, HasTheSamplesRowByRowAndKeepsThemAlive) {

@@ -23,33 +23,36 @@ std::string fullBox(const std::string& type, const std::string& content, std::ui
 
 }  // namespace
 
-HevcPicture hevcPicture(const std::function<std::uint32_t(int, int, int, int)>& sample) {
+HevcPicture hevcPicture(const std::function<std::uint32_t(int, int, int, int)>& sample, int cols, int rows) {
   const TemporaryFolder folder;
-  makeClip(folder / "a.mp4", {{.codec = "libx265",
-                               .pix_fmt = "yuv420p",
-                               .width = kHeicCols,
-                               .height = kHeicRows,
-                               .frames = 1,
-                               .range = ColorRange::Full,
-                               .sample = sample,
-                               .options = {{"crf", "4"}, {"x265-params", "log-level=error"}}}});
+  makeClip(folder / "a.mp4",
+           {{.codec = "libx265",
+             .pix_fmt = "yuv420p",
+             .width = cols,
+             .height = rows,
+             .frames = 1,
+             .range = ColorRange::Full,
+             .sample = sample,
+             .options = {{"crf", "4"}, {"preset", "ultrafast"}, {"x265-params", "log-level=error"}}}});
   const auto source = makeFfmpegSource();
   if (!source->open(folder / "a.mp4")) throw std::runtime_error("the coded picture cannot be opened");
   const StreamInfo& stream = source->streams().at(0);
   const Packet packet = source->read().value().value();
-  return {{stream.extradata.begin(), stream.extradata.end()}, {packet.data, packet.data + packet.bytes}};
+  return {{stream.extradata.begin(), stream.extradata.end()}, {packet.data, packet.data + packet.bytes}, cols, rows};
 }
 
 std::string heicFile(const HevcPicture& color, const HevcPicture& depth, const HeicLayout& how) {
-  const std::string size = number(kHeicCols, 4) + number(kHeicRows, 4);
-  const std::string properties =
-      box("ipco", box("hvcC", color.parameters) + box("hvcC", depth.parameters) + fullBox("ispe", size) +
-                      box("irot", number(static_cast<std::uint32_t>(how.quarter_turns), 1)) +
-                      fullBox("auxC", std::string("urn:mpeg:hevc:2015:auxid:2\0", 27)));
+  const auto sizeOf = [](const HevcPicture& of) {
+    return number(static_cast<std::uint32_t>(of.cols), 4) + number(static_cast<std::uint32_t>(of.rows), 4);
+  };
+  const std::string properties = box(
+      "ipco", box("hvcC", color.parameters) + box("hvcC", depth.parameters) + fullBox("ispe", sizeOf(color)) +
+                  box("irot", number(static_cast<std::uint32_t>(how.quarter_turns), 1)) +
+                  fullBox("auxC", std::string("urn:mpeg:hevc:2015:auxid:2\0", 27)) + fullBox("ispe", sizeOf(depth)));
   // Essential properties have the high bit.
   const std::string of_color = number(1, 2) + "\x03" + "\x81\x03\x84";
   const std::string of_depth =
-      number(2, 2) + (how.auxiliary ? "\x04" + std::string("\x82\x03\x84\x05") : "\x02" + std::string("\x82\x03"));
+      number(2, 2) + (how.auxiliary ? "\x04" + std::string("\x82\x06\x84\x05") : "\x02" + std::string("\x82\x06"));
   const std::string associations = fullBox("ipma", number(2, 4) + of_color + of_depth);
   const auto entry = [](std::uint32_t item, const std::string& type, const std::string& more) {
     return fullBox("infe", number(item, 2) + number(0, 2) + type + std::string(1, '\0') + more, 2);

@@ -15,9 +15,11 @@ inline constexpr int kHeicCols = 96, kHeicRows = 64;
 struct HevcPicture {
   std::string parameters;  // hvcC
   std::string picture;
+  int cols = kHeicCols, rows = kHeicRows;
 };
 // sample(component, column, row, 0), as for ClipTrack. Throws where FFmpeg lacks the coder.
-[[nodiscard]] HevcPicture hevcPicture(const std::function<std::uint32_t(int, int, int, int)>& sample);
+[[nodiscard]] HevcPicture hevcPicture(const std::function<std::uint32_t(int, int, int, int)>& sample,
+                                      int cols = kHeicCols, int rows = kHeicRows);
 
 struct HeicLayout {
   int quarter_turns = 0;  // anticlockwise, as irot says

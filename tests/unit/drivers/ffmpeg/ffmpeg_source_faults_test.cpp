@@ -189,7 +189,7 @@ TEST(FfmpegSource, WhatIsNoFileIsRefusedBeforeItIsRead) {
 // FFmpeg determines a PNG's size by decoding the first picture; it must not do so for a picture that is too large.
 TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   TemporaryFolder folder;
-  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 4096, .frames = 1}});
+  makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 6208, .frames = 1}});
   const auto source = makeFfmpegSource();
   ASSERT_TRUE(source->open(folder / "a.png"));
   EXPECT_EQ(source->streams()[0].width, 0);
@@ -197,6 +197,13 @@ TEST(FfmpegSource, APictureThatIsTooLargeIsNotDecodedToKnowItsSize) {
   const auto fits = makeFfmpegSource();
   ASSERT_TRUE(fits->open(folder / "b.png"));
   EXPECT_EQ(fits->streams()[0].width, 4096);
+  EXPECT_TRUE(fits->notes().empty());
+  makeClip(folder / "c.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 4096, .frames = 1}});
+  const auto photo = makeFfmpegSource();
+  ASSERT_TRUE(photo->open(folder / "c.png"));
+  EXPECT_EQ(photo->streams()[0].width, 4096) << "its decoder halves it";
+  EXPECT_EQ(photo->streams()[0].height, 2048);
+  EXPECT_THAT(photo->notes(), testing::ElementsAre(testing::HasSubstr("8192 x 4096")));
 }
 
 TEST(FfmpegWatch, WhatIsLateIsSaidOfAFileAPipeAndANetwork) {
