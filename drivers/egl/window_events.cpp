@@ -25,6 +25,20 @@ std::string typedNext() {
   return any && next.type == SDL_TEXTINPUT ? next.text.text : "";
 }
 
+// Of all that a window tells: the mouse, at rest, may point at another place of it afterwards.
+bool mayLieElsewhere(const SDL_WindowEvent& event) {
+  switch (event.event) {
+    case SDL_WINDOWEVENT_SHOWN:
+    case SDL_WINDOWEVENT_MOVED:
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+    case SDL_WINDOWEVENT_ENTER:
+    case SDL_WINDOWEVENT_FOCUS_GAINED:
+      return true;
+    default:
+      return false;
+  }
+}
+
 constexpr Duration kStill = std::chrono::seconds(15);  // without a new picture: a film is paused, or there is none
 constexpr Duration kPointerShown = std::chrono::seconds(2);  // after the mouse was used
 
@@ -77,7 +91,7 @@ void WindowDisplay::hearWindow(const SDL_WindowEvent& event) {
   if (event.event == SDL_WINDOWEVENT_EXPOSED) redraw_ = true;
   if (event.event == SDL_WINDOWEVENT_FOCUS_GAINED) input_->focused = true;
   if (event.event == SDL_WINDOWEVENT_FOCUS_LOST) input_->focused = false;
-  placed_at_ = clock_.now();
+  if (mayLieElsewhere(event)) placed_at_ = clock_.now();
   if (event.event == SDL_WINDOWEVENT_RESIZED && !fillsScreen()) film_size_ = false;  // by the viewer, or the desktop
   if (event.event != SDL_WINDOWEVENT_SIZE_CHANGED) return;
   redraw_ = true;

@@ -130,7 +130,8 @@ class EvdevPadPort final : public PadPort {
     if (auto facts = take(node)) return std::move(*facts);
     if (taken_) return fail(ErrorCode::NotFound, kTaken);
     if (forceless_) return fail(ErrorCode::Unsupported, kNoForce);
-    return fail(ErrorCode::Unsupported, "this input device is no gamepad; relievo devices lists those that are");
+    return fail(ErrorCode::Unsupported,
+                "this input device is no gamepad with a stick; relievo devices lists those that are");
   }
 
   Result<PadFacts> openFirst() {

@@ -42,8 +42,10 @@ bool isPad(const PadFacts& facts) noexcept {
 }
 
 bool isPadWithoutForce(const PadFacts& facts) noexcept {
-  const bool buttons = facts.keys.has(BTN_GAMEPAD) || facts.keys.has(BTN_JOYSTICK) || facts.keys.has(BTN_WHEEL);
-  return buttons && hasStick(facts) && !hasForce(facts);
+  const bool buttons = facts.keys.has(BTN_GAMEPAD) || facts.keys.has(BTN_JOYSTICK);
+  const input_absinfo& down = facts.ranges[ABS_Y];
+  const bool two_axes = facts.axes.has(ABS_Y) && down.minimum < down.maximum;
+  return (facts.keys.has(BTN_WHEEL) || (buttons && two_axes)) && hasStick(facts) && !hasForce(facts);
 }
 
 double PadControls::Axis::share() const RELIEVO_RT {

@@ -29,8 +29,8 @@ struct Character {
   std::uint16_t code;
 };
 constexpr Character kCharacters[] = {
-    {' ', KEY_SPACE}, {'\r', KEY_ENTER},       {'\n', KEY_ENTER},
-    {'\t', KEY_TAB},  {'\x7f', KEY_BACKSPACE}, {'\b', KEY_BACKSPACE},
+    {' ', KEY_SPACE},        {'\r', KEY_ENTER},     {'\n', KEY_ENTER},           {'\t', KEY_TAB},
+    {'\x7f', KEY_BACKSPACE}, {'\b', KEY_BACKSPACE}, {'\x17', KEY_W | kWithCtrl},
 };
 
 // The final byte of a sequence is its first one at or above '@', after the second [ that the kernel's console sends.

@@ -107,6 +107,7 @@ TEST(TerminalKeys, AreThoseOfTheKernel) {
   EXPECT_EQ(keysOf("\x1b[[A\x1b[[EA\x1b[["), (Keys{KEY_F1, KEY_F5, KEY_A | kWithShift}));
   // Unknown sequences do not swallow the keys after them.
   EXPECT_EQ(keysOf("\x1b[1;9Xq\x1b[1;3C\x1b[1;9C\x1b[200~\xc3\xa4s\x01"), (Keys{KEY_Q, KEY_S}));
+  EXPECT_EQ(keysOf("\x17"), (Keys{KEY_W | kWithCtrl}));
   EXPECT_EQ(keysOf("\x1b[12"), (Keys{}));
 }
 

@@ -69,9 +69,9 @@ Outcome<std::vector<ChartWords>> measureMaterialStability(const MeasureOptions& 
   return std::vector{ChartWords{
       "relievo on surfaces of other materials",
       print(
-          "Scenarios of %zu passed, and those failed by no more than the material itself does (theirs is the limit "
-          "with "
-          "≤ or ≥), by material:%s. Friction of .3 lays .3 of the force of a finger that slides aside, 17 degrees; at "
+          "Scenarios of %zu passed, and those failed by no more than the material itself does (marked with ≤ or ≥: the "
+          "limit of theory), by material:%s. Friction of .3 lays .3 of the force of a finger that slides aside, 17 "
+          "degrees; at "
           "50 N/s a hole takes half the force away in half the time; 1 N/mm reaches the limit of 10 N at 10 mm.",
           scenarios().size(), passed.c_str())}};
 }

@@ -104,6 +104,9 @@ TEST(Pads, AGamepadWithoutForceFeedbackIsToldFromWhatIsNone) {
   PadFacts screen = test::padFacts({}, {BTN_TOUCH});
   test::addAxis(screen, ABS_X, 0, 4095, 0);
   EXPECT_FALSE(isPadWithoutForce(screen));
+  PadFacts keyboard = test::padFacts({}, {BTN_TRIGGER, KEY_A});  // some claim to be a joystick of one axis
+  test::addAxis(keyboard, ABS_X, 0, 255, 0);
+  EXPECT_FALSE(isPadWithoutForce(keyboard));
   EXPECT_FALSE(isPadWithoutForce(test::padFacts({}, {BTN_TRIGGER}))) << "a throttle without a stick";
 }
 
