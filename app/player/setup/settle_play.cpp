@@ -85,6 +85,9 @@ void settleSignal(PlayOptions& play) {
   } else if (stereo.layout == StereoLayout::TopBottom && !stereo.full) {
     display.stereo = StereoSignal::TopAndBottom;
   }
+  // Off screen any size can be had: that of the usual 1280x720 as HDMI packs it.
+  const bool any_size = play.display.word == "offscreen" && display.film_size;
+  if (any_size && stereo.layout == StereoLayout::FramePacking) display.height = 1470;
 }
 
 std::string usualFilms() {

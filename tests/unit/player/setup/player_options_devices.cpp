@@ -187,6 +187,13 @@ TEST(Options, TheSignalForATelevisionIsThatOfTheLayoutOrTheOneAskedFor) {
     EXPECT_EQ(display.stereo, signal) << words.back();
     EXPECT_EQ(display.other_stereo, or_other) << words.back();
   }
+  const auto height = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"play", "film.mkv", "--stereo", "frame-packing", "--display"});
+    return parse(words).options.value().play.player.display.height;
+  };
+  EXPECT_EQ(height({"offscreen"}), 1470);
+  EXPECT_EQ(height({"offscreen", "--size", "1920x2205"}), 2205);
+  EXPECT_EQ(height({"window"}), 720) << "it has no such size";
   expectRefused({"play", "film.mkv", "--tv-signal", "sbss"}, "did you mean sbs?");
   expectRefused({"play", "film.mkv", "--stereo", "SBSS"}, "did you mean sbs?");
   expectRefused({"play", "film.mkv", "--stereo", "anaglyph:grey"}, "did you mean anaglyph:gray?");
