@@ -238,8 +238,9 @@ std::string nearEndLine(const DepthCalibration& calibration, double nearer_below
       print("nothing says which end of the depth is near: %s is taken%s; if it is %s: --calibration polarity=%s",
             near_high ? high : low, view, near_high ? low : high, near_high ? "near-low" : "near-high");
   const bool may_be_mm = calibration.code == DepthCode::Luma && calibration.bits >= 12 && calibration.bits < 16;
-  return line + (near_high && !black.empty() ? ",invalid=" + black + ", black being a hole" : "") +
-         (may_be_mm ? "; if a code is 1 mm: --as mm" : "") +
+  const std::string hole =
+      near_high ? ",invalid=" + black + ", black being a hole" : ",invalid=none; black is a hole now";
+  return line + (black.empty() ? "" : hole) + (may_be_mm ? "; if a code is 1 mm: --as mm" : "") +
          (may_be_mm && calibration.bits == EvenSteps::kBits ? "; if LeRobot wrote it: --as lerobot" : "");
 }
 

@@ -21,6 +21,7 @@ struct DepthReading {
   std::string offer;                // one line; empty if there is no doubt
   bool unsure = false;              // `offer` is as likely
   std::string doubt;                // one line: what is left out of the pictures' range; empty if nothing is
+  bool by_view = false;             // the near end is the one that makes the view nearer below
   std::string black;                // of a film of brightness: the codes that are holes if near is dark; empty if none
 };
 

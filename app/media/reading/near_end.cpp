@@ -2,6 +2,8 @@
 #include "app/media/reading/near_end.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include "app/media/reading/depth_doubts.h"
@@ -36,6 +38,13 @@ const char* otherEndOf(const DepthCalibration& calibration) noexcept {
   return calibration.polarity == DepthPolarity::NearIsHigh ? "near-low" : "near-high";
 }
 
+// Pictures that programs write one by one; of those that are dark where they are near, most are renderings and photos
+// with a lens blur. A film's gray is near where it is bright unless somebody says otherwise.
+bool isPicture(std::string_view codec) noexcept {
+  constexpr std::array<std::string_view, 6> kPictures{"png", "mjpeg", "webp", "bmp", "tiff", "jpeg2000"};
+  return std::ranges::find(kPictures, codec) != kPictures.end();
+}
+
 // How much nearer the view is below than above. Black that may be a hole says nothing of that.
 double nearerBelow(const Frame& look, DepthCalibration calibration, const DepthReading& read) {
   if (!read.black.empty()) calibration.invalid = CodeSet::parse(read.black).value_or(CodeSet());
@@ -45,11 +54,15 @@ double nearerBelow(const Frame& look, DepthCalibration calibration, const DepthR
 }  // namespace
 
 Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
-                                        const DepthReading& read) {
+                                        DepthReading& read) {
   auto choice = choose(clues, look, layers);
-  const bool open = choice && isColorMap(clues.code) && nearEndOf(*choice).origin == CalibrationOrigin::Default;
-  if (!open || nearerBelow(look, choice->calibration, read) >= -kClearlyNearer) return choice;
+  const bool either = isColorMap(clues.code) || (clues.code == DepthCode::Luma && isPicture(clues.codec));
+  const bool open = choice && either && nearEndOf(*choice).origin == CalibrationOrigin::Default;
+  if (!open || isLevel(look, choice->calibration)) return choice;
+  if (nearerBelow(look, choice->calibration, read) >= -kClearlyNearer) return choice;
   layers.pictures["polarity"] = otherEndOf(choice->calibration);
+  if (!read.black.empty()) layers.pictures["invalid"] = read.black;
+  read.by_view = true;
   return choose(clues, look, layers);
 }
 
@@ -58,7 +71,7 @@ NearEndDoubt doubtNearEnd(const CalibrationChoice& choice, bool is_known, const 
   const CalibrationOrigin by = nearEndOf(choice).origin;
   if (certaintyOf(by) == Certainty::Said || isLevel(look, calibration)) return {};
   const double nearer = nearerBelow(look, calibration, read);
-  const bool by_view = isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture;
+  const bool by_view = read.by_view || (isColorMap(calibration.code) && by == CalibrationOrigin::FirstPicture);
   const bool upside_down = nearer < -kClearlyNearer;
   if (by_view || certaintyOf(by) == Certainty::Assumed) {
     return {nearEndLine(calibration, nearer, read.black), !upside_down};

@@ -13,9 +13,10 @@
 namespace relievo {
 
 // Chooses the calibration. Gray is near where it is bright, hues are near in the red. Either end of a colour map is as
-// often near: it is the one that makes the view nearer below.
+// often near: it is the one that makes the view nearer below. So is the end of gray in a picture, not in a film, if the
+// view speaks against the bright one; black that may be a hole is one then.
 [[nodiscard]] Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look,
-                                                      CalibrationLayers& layers, const DepthReading& read);
+                                                      CalibrationLayers& layers, DepthReading& read);
 
 struct NearEndDoubt {
   std::string line;    // empty: none

@@ -91,6 +91,32 @@ TEST(ShadeReading, BrightIsNearAndADoubtSaysWhatTheViewSays) {
   expect([](int c, int) { return 30 + 2 * c; }, "bright is taken;");
 }
 
+// Renderings of distances and photos with a lens blur are dark where they are near. A film keeps to bright.
+TEST(ShadeReading, OfAPicturesGrayTheEndIsNearThatMakesTheViewNearerBelow) {
+  const auto darker_below = [](int, int r) { return static_cast<std::uint32_t>(220 - 2 * r); };
+  const auto brighter_below = [](int, int r) { return static_cast<std::uint32_t>(30 + 2 * r); };
+  for (const char* const codec : {"png", "mjpeg", "webp"}) {
+    const DepthMeaning dark = meaningOf(darker_below, ColorModel::Gray, {.codec = codec});
+    EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow) << codec;
+    EXPECT_THAT(dark.reading.doubts,
+                ElementsAre(AllOf(HasSubstr("dark is taken, which makes"), HasSubstr("polarity=near-high"))));
+    const DepthMeaning bright = meaningOf(brighter_below, ColorModel::Gray, {.codec = codec});
+    EXPECT_EQ(bright.calibration.calibration.polarity, DepthPolarity::NearIsHigh) << codec;
+    DepthClues said{.codec = codec};
+    said.command_line = {{"polarity", "near-high"}};
+    EXPECT_EQ(meaningOf(darker_below, ColorModel::Gray, said).calibration.calibration.polarity,
+              DepthPolarity::NearIsHigh);
+  }
+  const DepthMeaning film = meaningOf(darker_below, ColorModel::Gray, {.codec = "h264"});
+  EXPECT_EQ(film.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  // A JPEG's black apart from the other shades is no wall in front of them.
+  const auto with_black = [&](int c, int r) { return c < 8 ? 0 : darker_below(c, r); };
+  const DepthMeaning black = meaningOf(with_black, ColorModel::Yuv, {.codec = "mjpeg"});
+  EXPECT_EQ(black.calibration.calibration.polarity, DepthPolarity::NearIsLow);
+  EXPECT_TRUE(black.calibration.calibration.invalid.contains(0));
+  EXPECT_THAT(black.reading.doubts, ElementsAre(HasSubstr("black is a hole now")));
+}
+
 TEST(ShadeReading, ALevelPictureIsNearAtNeitherEnd) {
   const auto doubts = [](std::uint32_t others) {
     const Frame frame = makeGrayFrame(64, 96, 8, {}, [=](int, int r) { return r < 4 ? 90 : others; });
