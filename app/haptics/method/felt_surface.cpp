@@ -35,8 +35,14 @@ struct SoftClamp {
 
 }  // namespace
 
-FeltSurface::FeltSurface(const FeltScale& scale) noexcept
+std::uint64_t mostBlocksOf(double tick_s) noexcept {
+  const double share = std::min(tick_s / 0.001, 1.0);
+  return std::max(static_cast<std::uint64_t>(share * static_cast<double>(kBlocksOfTick)), kBlocksOfFrame);
+}
+
+FeltSurface::FeltSurface(const FeltScale& scale, double tick_s) noexcept
     : scale_(scale),
+      most_blocks_(mostBlocksOf(tick_s)),
       narrow_(scale.narrow_mm, kNarrowSamples, scale.space, scale.narrow_time, SurfaceLevel::Curvature::Flattened,
               scale.narrow_steady_mm),
       smooth_(scale),

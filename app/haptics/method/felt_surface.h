@@ -15,8 +15,10 @@
 
 namespace relievo {
 
-// Blocks counted per frame. A tick that has read more leaves optional work to later ticks.
+// Blocks counted per frame. A tick of a millisecond that has read more leaves optional work to later ticks, a shorter
+// one after its share of them, but not before a frame's.
 inline constexpr std::uint64_t kBlocksOfTick = 256;
+[[nodiscard]] std::uint64_t mostBlocksOf(double tick_s) noexcept;
 // A frame has 16 narrow blocks around one place, and 32, with their rims, of a smooth level. A tick that has read that
 // many does not prepare the next tick, which may read more, of up to four levels. With a lower bound too few ticks of a
 // moving finger would be prepared: with 24, one of 40 fingers at a noisy edge fell off it 2.5 mm early, with 48 none.
@@ -29,7 +31,7 @@ inline constexpr std::uint64_t kBlocksOfFrame = 48;
 // A view of one window at one moment; reads depth on demand.
 class FeltSurface {
  public:
-  explicit FeltSurface(const FeltScale& scale) noexcept;
+  explicit FeltSurface(const FeltScale& scale, double tick_s = 0.001) noexcept;
 
   // False if there is no frame. Frames of the window must stay valid until the next call only.
   bool moveTo(const SurfaceWindow& window, MediaTime now) RELIEVO_RT;
@@ -50,8 +52,8 @@ class FeltSurface {
   [[nodiscard]] std::uint64_t blocksRead() const RELIEVO_RT {
     return narrow_.grid().blocksRead() + smooth_.blocksRead();
   }
-  // More than kBlocksOfTick, or at least kBlocksOfFrame, since `moveTo`.
-  [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > kBlocksOfTick; }
+  // More than mostBlocksOf the tick, or at least kBlocksOfFrame, since `moveTo`.
+  [[nodiscard]] bool hasReadMuch() const RELIEVO_RT { return blocksRead() - read_before_ > most_blocks_; }
   [[nodiscard]] bool hasReadAFrame() const RELIEVO_RT { return blocksRead() - read_before_ >= kBlocksOfFrame; }
 
   // True if `prepare` was called for this moment and these frames.
@@ -76,6 +78,7 @@ class FeltSurface {
   void placeFrames(const SurfaceWindow& window) RELIEVO_RT;
 
   FeltScale scale_;
+  std::uint64_t most_blocks_;
   SurfaceLevel narrow_;
   SmoothLevel smooth_;
   bool two_levels_;

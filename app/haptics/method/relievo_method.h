@@ -39,7 +39,7 @@ class RelievoMethod final : public TouchMethod {
   };
   explicit RelievoMethod(const Config& config) noexcept
       : config_(config),
-        surface_(config.scale),
+        surface_(config.scale, config.tick_s),
         material_({config.stiffness_n_per_mm, config.friction, config.texture.amplitude_mm}, config.places),
         spring_(config.friction, config.texture, config.places, config.tick_s) {}
 
