@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
+#include <cstring>
 #include <future>
 #include <string_view>
 #include <system_error>
@@ -29,6 +30,10 @@ constexpr int kMostLooks = 100;       // after so many, nobody answers
 constexpr const char* kNobody =
     "no Haply Inverse service answers there; start it (systemctl start haply-inverse-service, or open the Haply Hub) "
     "or give its place: inverse3:HOST:PORT";
+
+constexpr const char* kOlder =
+    "no Haply Inverse service of 3.1 or later answers there, but something does on the port that 3.0 had; install 3.1 "
+    "to 3.5";
 
 struct FreeAddresses {
   void operator()(addrinfo* list) const noexcept { ::freeaddrinfo(list); }
@@ -60,6 +65,8 @@ class TcpWire final : public Wire {
       connected = connect(*each, cancelled);
       if (connected || connected.error().code == ErrorCode::Cancelled) break;
     }
+    if (!connected && connected.error().os_error == ECONNREFUSED && olderAnswers(addresses->get(), cancelled))
+      connected = fail(ErrorCode::Unsupported, kOlder);
     if (!connected) close();
     return connected;
   }
@@ -111,6 +118,21 @@ class TcpWire final : public Wire {
       if (::poll(&ready, 1, static_cast<int>(kBetweenLooks.count())) > 0) return outcome();
     }
     return fail(ErrorCode::Timeout, kNobody);
+  }
+
+  // Whether a service of 3.0 may run on that host.
+  bool olderAnswers(const addrinfo* addresses, const std::atomic<bool>& cancelled) {
+    const std::uint16_t port = htons(address_.older_port);
+    for (; addresses != nullptr; addresses = addresses->ai_next) {
+      sockaddr_storage place{};
+      std::memcpy(&place, addresses->ai_addr, addresses->ai_addrlen);
+      if (place.ss_family == AF_INET) reinterpret_cast<sockaddr_in&>(place).sin_port = port;
+      else reinterpret_cast<sockaddr_in6&>(place).sin6_port = port;
+      addrinfo older = *addresses;
+      older.ai_addr = reinterpret_cast<sockaddr*>(&place);
+      if (connect(older, cancelled)) return true;
+    }
+    return false;
   }
 
   Result<void> outcome() {

@@ -17,6 +17,7 @@ namespace relievo::inverse3 {
 struct Address {
   std::string host = "localhost";
   std::uint16_t port = 10001;
+  std::uint16_t older_port = 10000;  // of the service's versions before 3.1, whose messages are not spoken
 
   // "HOST", "HOST:PORT", "[IPv6]:PORT"; nullopt for anything else.
   [[nodiscard]] static std::optional<Address> parse(const std::string& text);
@@ -29,7 +30,8 @@ class Wire {
  public:
   virtual ~Wire() = default;
 
-  // NotFound: nobody listens there. Timeout; Cancelled within 100 ms after `cancelled` is set.
+  // NotFound: nobody listens there. Unsupported: nobody does, but at the older port. Timeout; Cancelled within 100 ms
+  // after `cancelled` is set.
   [[nodiscard]] virtual Result<void> open(const std::atomic<bool>& cancelled) = 0;
   virtual void close() noexcept = 0;
 

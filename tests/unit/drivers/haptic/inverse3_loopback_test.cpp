@@ -108,6 +108,20 @@ TEST_F(Inverse3Loopback, WhatIsNoSuchServiceIsRefused) {
   web.join();
 }
 
+// A service of 3.0 has no other port than the older one.
+TEST_F(Inverse3Loopback, WhereOnlyTheOlderPortAnswersANewerServiceIsAskedFor) {
+  const UniqueFd older = test::bindLoopback(SOCK_STREAM);
+  std::uint16_t nobody = 0;
+  {
+    const UniqueFd gone = test::bindLoopback(SOCK_STREAM);
+    nobody = test::portOf(gone);
+  }
+  const auto opened = deviceAt({.host = "127.0.0.1", .port = nobody, .older_port = test::portOf(older)})->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  EXPECT_THAT(opened.error().message, testing::HasSubstr("install 3.1"));
+}
+
 TEST_F(Inverse3Loopback, AtTheLimitOfProcessesOpeningFails) {
   const auto device = deviceAt({.host = "127.0.0.1", .port = 1});
   const test::NoThreads none;
