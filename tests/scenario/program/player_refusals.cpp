@@ -17,6 +17,7 @@
 
 #include "platform/unique_fd.h"
 #include "tests/scenario/program/player_program.h"
+#include "tests/support/files.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
@@ -100,6 +101,38 @@ TEST_F(PlayerProgram, ACaptureOntoTheFilmIsRefusedWhateverItsName) {
       expectOneLine(result, 2, "would be overwritten");
     }
     EXPECT_EQ(runProgram("relievo probe " + at(film), at("")).exit_code, 0) << "the film is still one";
+  }
+}
+
+TEST_F(PlayerProgram, NoOutputReplacesWhatTheRunReads) {
+  makeClip(at("film.mkv"), {color(3), depth(3)});
+  makeClip(at("p-%02d.png"), {{.codec = "png", .pix_fmt = "rgb24", .frames = 3}});
+  std::ofstream(at("keys.toml")) << "[always]\nRIGHT = \"seek +5\"\n";
+  std::ofstream(at("relievo.toml")) << "[play]\nloop = false\n";
+  std::ofstream(at("camera.txt")) << "law = linear\n";
+  std::ofstream(at("film.en.srt")) << "1\n00:00:00,000 --> 00:00:01,000\nword\n";
+  std::ofstream(at("rig.toml")) << "[depth]\nsize = [64, 48]\nfocal = [60, 60]\ncenter = [31.5, 23.5]\nunit_mm = 1\n"
+                                   "[color]\nsize = [64, 48]\nfocal = [60, 60]\ncenter = [31.5, 23.5]\n"
+                                   "[depth_to_color]\nrotation = [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"
+                                   "translation_mm = [-15, 0, 0]\n";
+  std::ofstream(at("list.m3u")) << "film.mkv\n";
+  struct Read {
+    std::string file, words;
+  };
+  const std::string film = at("film.mkv");
+  for (const auto& [file, words] :
+       {Read{"keys.toml", film + " --keys " + at("keys.toml")},
+        Read{"relievo.toml", film + " --config " + at("relievo.toml")},
+        Read{"camera.txt", film + " --calibration " + at("camera.txt")},
+        Read{"rig.toml", film + " --registration " + at("rig.toml")}, Read{"film.en.srt", film},
+        Read{"list.m3u", at("list.m3u")}, Read{"film.mkv", at("list.m3u")}, Read{"film.mkv", "file:" + film},
+        Read{"p-02.png", at("p-%02d.png")}}) {
+    const std::string before = contentOf(at(file));
+    for (const char* option : {" --report ", " --record "}) {
+      expectOneLine(play(words + option + at(file)), 2, file + ": is also an input and would be overwritten");
+    }
+    expectOneLine(play(words, "offscreen:" + at(file)), 2, file + ": is also an input and would be overwritten");
+    EXPECT_EQ(contentOf(at(file)), before) << words;
   }
 }
 
