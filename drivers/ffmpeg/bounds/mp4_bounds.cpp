@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{16} << 20, kMostRunByte
 constexpr int kMostBoxes = 100'000, kMostTracks = 1000, kMostFragments = 200'000;
 constexpr int kDeepest = 10;                                        // as in FFmpeg
 constexpr int kLaterBoxes = 64;                                     // that are looked at behind the header
-constexpr std::uint64_t kSoundPiece = 1024, kShortestPacket = 160;  // samples that FFmpeg takes together
+constexpr std::uint64_t kSoundPiece = 1024, kShortestPacket = 160;  // samples of sound that FFmpeg takes together
 
 constexpr std::uint32_t type(std::string_view name) {
   std::uint32_t value = 0;
@@ -83,8 +83,9 @@ class Tables {
   // What a track's tables say.
   struct Track {
     std::uint64_t samples = 0, chunks = 0, edits = 0;
-    Box runs;  // of chunks with as many samples
-    bool picture = false, sound = false, ticks = false, packets = false;
+    Box runs;                           // of chunks with as many samples
+    std::uint64_t piece = kSoundPiece;  // samples that FFmpeg takes together
+    bool picture = false, sound = false, ticks = false;
   };
 
   static bool isNamed(const Box& box) noexcept {
@@ -168,16 +169,25 @@ class Tables {
     std::vector<std::uint8_t> runs(static_cast<std::size_t>(track_.runs.bytes()));
     runs.resize((*file_)(track_.runs.data, runs));
     const std::span bytes(runs);
-    const std::uint64_t piece = track_.packets ? kShortestPacket : kSoundPiece;
-    std::uint64_t pieces = track_.chunks;
+    std::uint64_t pieces = 0;
     for (std::size_t at = 8; at + kRunBytes <= runs.size(); at += kRunBytes) {
       const std::uint64_t first = bigEndian(bytes.subspan(at, 4)), samples = bigEndian(bytes.subspan(at + 4, 4));
       const bool last = at + 2 * kRunBytes > runs.size();
       const std::uint64_t next = last ? track_.chunks + 1 : bigEndian(bytes.subspan(at + kRunBytes, 4));
       const std::uint64_t chunks = std::min(next > first ? next - first : 0, track_.chunks);
-      pieces += std::min(chunks * (samples / piece), 2 * kMostMp4Samples);
+      pieces += std::min(chunks * ((samples + track_.piece - 1) / track_.piece), 2 * kMostMp4Samples);
     }
     return pieces;
+  }
+
+  // Of a list of what a track's samples are. FFmpeg takes packets of 160 samples and more one by one, as many shorter
+  // ones as 1024 samples hold, and 1024 samples where there are none.
+  [[nodiscard]] std::uint64_t pieceOf(const Box& kinds) const {
+    if (numberIn(kinds, 4) > 1 || numberIn(kinds, 12) == type("agsm")) return kShortestPacket;
+    const std::uint64_t version = numberIn(kinds, 24, 2);
+    const std::uint64_t packet = version == 1 ? numberIn(kinds, 44) : version == 2 ? numberIn(kinds, 76) : 0;
+    if (packet >= kShortestPacket) return std::min(packet, kSoundPiece);
+    return packet > 1 ? kSoundPiece / packet * packet : kSoundPiece;
   }
 
   void noteTable(const Box& box) {
@@ -188,7 +198,7 @@ class Tables {
     else if (box.type == type("stco")) track_.chunks += std::min(count(), box.bytes() / 4);
     else if (box.type == type("co64")) track_.chunks += std::min(count(), box.bytes() / 8);
     else if (box.type == type("elst")) track_.edits += box.bytes() / (numberIn(box, 0, 1) == 1 ? 20 : 12);
-    else if (box.type == type("stsd")) track_.packets = track_.packets || numberIn(box, 24, 2) != 0;
+    else if (box.type == type("stsd")) track_.piece = std::min(track_.piece, pieceOf(box));
     else if (box.type == type("hdlr")) track_.picture = track_.picture || numberIn(box, 8) == type("vide");
     if (box.type == type("hdlr")) track_.sound = track_.sound || numberIn(box, 8) == type("soun");
   }

@@ -93,6 +93,33 @@ TEST(Mp4Film, SoundThatIsNotCodedCountsByThePiecesThatFFmpegTakes) {
   EXPECT_THAT(exceeded(film(sound(36'000, 48'000, picture))), StrEq(ffmpeg::kTooManyMp4Samples));
 }
 
+// FFmpeg writes each chunk with the pictures of its time.
+std::string soundIn(const std::string& kinds, std::uint64_t seconds, std::uint64_t chunk = 2000) {
+  const std::uint64_t chunks = 48'000 * seconds / chunk;
+  return track("soun", table("stsd", {1}, kinds) + table("stts", {1, 48'000 * seconds, 1}) +
+                           table("stsz", {6, 48'000 * seconds}) + table("stsc", {1, 1, chunk, 1}) +
+                           table("stco", {chunks}, std::string(4 * chunks, '\1')));
+}
+// An entry of the list of sound, with the samples in a packet.
+std::string soundEntry(const std::string& type, int version, std::uint64_t samples) {
+  const std::string begin = std::string(8, '\0') + bigEndian(static_cast<std::uint64_t>(version), 2);
+  if (version < 2) return box(type, begin + std::string(18, '\0') + bigEndian(samples) + std::string(12, '\0'));
+  return box(type, begin + std::string(50, '\0') + bigEndian(samples));
+}
+
+// FFmpeg writes 24 bits so; eight tracks of an hour took ffprobe 82 MB.
+TEST(Mp4Film, SoundInPacketsOfASampleCountsBy1024) {
+  constexpr std::uint64_t kHour = 3600;
+  EXPECT_THAT(exceeded(film(repeated(soundIn(soundEntry("in24", 1, 1), kHour), 8))), IsNull());
+  EXPECT_THAT(exceeded(film(repeated(soundIn(soundEntry("lpcm", 2, 1), kHour), 8))), IsNull());
+  EXPECT_THAT(exceeded(film(repeated(soundIn(soundEntry("ima4", 1, 64), kHour), 8))), IsNull());
+  const std::uint64_t tens = 10 * kHour;  // of 160 samples: 10.8 million
+  EXPECT_THAT(exceeded(film(soundIn(soundEntry("lpcm", 1, 160), tens))), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(film(soundIn(soundEntry("lpcm", 2, 160), tens))), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(film(soundIn(soundEntry("agsm", 0, 0), tens))), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(film(soundIn(soundEntry("lpcm", 2, 161), 7 * kHour))), IsNull());
+}
+
 TEST(Mp4Film, FragmentsTracksAndTagsAreBoundedToo) {
   const std::string run = box("moof", box("traf", table("tfhd", {1}) + table("trun", {4'000'001})));
   EXPECT_THAT(exceeded(film("", run)), IsNull());
