@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/media/folder/film_folder.h"
+#include "app/media/folder/other_view.h"
 #include "hal/media/media_names.h"
 #include "platform/print.h"
 #include "platform/text/lower_case.h"
@@ -120,6 +121,12 @@ void FilmInputs::takeFacts() {
 void FilmInputs::takeDepthBeside(const StreamInfo& color) {
   std::vector<std::string>& notes = film_.info.notes;
   const std::string file = depthBeside(film_.options.url);
+  if (const std::string other = file.empty() ? otherViewBeside(film_.options.url) : ""; !other.empty()) {
+    notes.push_back(
+        print("%s beside it may be its other view; name their folder to see both, and --depth-from stereo "
+              "to feel them",
+              other.c_str()));
+  }
   if (file.empty()) return;
   film_.options.depth_url = file;
   const auto opened = openDepth(color);

@@ -21,8 +21,10 @@ using test::ClipTrack;
 using test::distanceMm;
 using test::kSceneCols;
 using test::kSceneRows;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 class StereoFolder : public testing::Test {
  protected:
@@ -81,6 +83,20 @@ TEST_F(StereoFolder, OfMiddlebury2014HasTheDistancesOfItsCameras) {
   const test::OpenedFilm film = open();
   expectStill(film, 0.003);
   EXPECT_THAT(film.info.reading.why, Contains(HasSubstr("calib.txt")));
+}
+
+// One view alone is shown; the other is named, so that both can be seen and felt.
+TEST_F(StereoFolder, OneViewByItselfNamesTheOther) {
+  for (const char* name : {"left.png", "right.png", "a_L.png", "a_R.png", "street/im0.png", "street/im1.png", "c.png"})
+    view(name, 200);
+  const auto notes = [&](const char* name) { return test::openFilm({.url = folder_ / name}).info.notes; };
+  EXPECT_THAT(notes("left.png"), Contains(AllOf(HasSubstr("/right.png beside it"), HasSubstr("--depth-from stereo"))));
+  EXPECT_THAT(notes("right.png"), Contains(HasSubstr("/left.png beside it")));
+  EXPECT_THAT(notes("a_L.png"), Contains(HasSubstr("/a_R.png beside it")));
+  EXPECT_THAT(notes("street/im0.png"), Contains(HasSubstr("street/im1.png beside it")));
+  EXPECT_THAT(notes("c.png"), Not(Contains(HasSubstr("beside it"))));
+  disparities("left_disp.png", [](double mm) { return 90000 / mm; });
+  EXPECT_THAT(notes("left.png"), Not(Contains(HasSubstr("right.png beside it"))));
 }
 
 // Z = 3740 px x 160 mm / (code + dmin), in every size.
