@@ -134,6 +134,12 @@ void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   const bool comparable = kind == depth_kind && kind != NameKind::Ranks && overlap(color, depth);
   if (!comparable) {
     if (pairByKey(found)) return;
+    if (2 * depth.size() < color.size() && kind != NameKind::Seconds) {
+      notes.push_back(print("the depth is left out: names such as %s fit none of the %zu pictures; give it by --depth",
+                            found.depth.names[depth.front().place].c_str(), color.size()));
+      depth.clear();
+      return;
+    }
     if (color.size() > 1 || depth.size() > 1)
       notes.emplace_back("the names of colour and depth do not correspond: they are paired in their order");
     if (kind != NameKind::Seconds || color.size() != depth.size()) countByRank(color), kind = NameKind::Ranks;

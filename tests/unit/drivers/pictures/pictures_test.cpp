@@ -219,6 +219,17 @@ TEST_F(Pictures, NamesThatDoNotCorrespondArePairedInTheirOrder) {
   EXPECT_THAT(read(folder_ / "s").notes, Contains(HasSubstr("paired in their order")));
 }
 
+// A stereo pair's disparity among pictures of other scenes: felt under the first of them it would be wrong.
+TEST_F(Pictures, AFewDepthsWhoseNamesFitNoPictureAreLeftOut) {
+  for (const char* name : {"000001.png", "000002.png", "LK1.png", "LK2.png", "left.png"})
+    file("s/" + std::string(name));
+  file("s/disparity.png");
+  const Film film = read(folder_ / "s");
+  EXPECT_EQ(film.color.size(), 5u);
+  EXPECT_THAT(film.depth, IsEmpty());
+  EXPECT_THAT(film.notes, Contains(AllOf(HasSubstr("disparity.png"), HasSubstr("--depth"))));
+}
+
 TEST_F(Pictures, ASeekBeginsWithThePicturesAtTheTarget) {
   for (int k = 0; k < 9; ++k) file("r/rgb/" + std::to_string(k) + ".png");
   file("r/depth/0.png"), file("r/depth/6.png");
