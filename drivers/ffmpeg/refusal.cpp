@@ -66,8 +66,9 @@ constexpr const char* kOpencv =
 constexpr const char* kPacked = "it is compressed; unpack it and name what is in it";
 constexpr const char* kModel =
     "it is a 3D model; relievo plays depth pictures: give the recording that it was made from";
+constexpr const char* kMedical = "it is a medical image, whose numbers are no depth";
 constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
-constexpr std::array<UnreadEnding, 29> kUnreadEndings{{
+constexpr std::array<UnreadEnding, 34> kUnreadEndings{{
     {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},
     {"npz", "it is an archive of arrays; unzip it and name the .npy with the depth"},
     {"zip", "it is an archive; unpack it and name its folder"},
@@ -99,6 +100,13 @@ constexpr std::array<UnreadEnding, 29> kUnreadEndings{{
     {"hgt",
      "it is heights of SRTM; convert it: ffmpeg -f rawvideo -pix_fmt gray16be -video_size 1201x1201 -i FILE OUT.png "
      "(3601x3601 if it has 26 MB), and give OUT.png --as heights"},
+    {"dmb",
+     "it is a depth map of Gipuma or ACMM; convert it: python3 -c 'import numpy; numpy.save(\"depth.npy\", "
+     "numpy.fromfile(\"FILE\", \"<f4\")[4:].reshape(numpy.fromfile(\"FILE\", \"<i4\", 3)[1:]))'"},
+    {"flo", "it is optical flow, how far each sample moves, and no depth"},
+    {"dcm", kMedical},
+    {"nii", kMedical},
+    {"zdf", "it is a recording of a Zivid camera; convert it with its SDK to a .npy of the distances, or a 16-bit PNG"},
     {"e57", kCloud},
     {"las", kCloud},
     {"blend", "it is a scene of Blender; render its depth (Z) as EXR, which is read"},

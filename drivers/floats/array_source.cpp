@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/floats/array_source.h"
 
+#include <string_view>
+
 #include "drivers/floats/floats.h"
 #include "platform/print.h"
 
@@ -20,6 +22,20 @@ std::string headerFor(const npy::Header& h) {
   return header + text;
 }
 
+// What to do with an array that is no picture, by its header (numpy's format).
+const char* whyNoPicture(std::span<const std::uint8_t> begin) {
+  const std::string_view header(reinterpret_cast<const char*>(begin.data()), begin.size());
+  if (header.find("'descr': '|O'") != header.npos)
+    return "it holds objects of Python, such as a dictionary; if you trust the file, take its depth out: python3 -c "
+           "'import numpy; d = numpy.load(\"FILE\", allow_pickle=True).item(); print(list(d)); "
+           "numpy.save(\"depth.npy\", d[\"depth\"])', depth being one of the names that are printed";
+  if (header.find(", 4)") != header.npos || header.find(", 4,)") != header.npos)
+    return "it has four numbers a sample; if the fourth is the depth: numpy.save(\"depth.npy\", a[..., 3])";
+  return "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x columns, with "
+         "at most 16.7 million samples and 300 MB a picture; rows x columns x pictures are put in order by "
+         "numpy.moveaxis(a, -1, 0)";
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> ArraySource::beginning() {
@@ -31,15 +47,11 @@ std::vector<std::uint8_t> ArraySource::beginning() {
 Result<MediaSource::Description> ArraySource::describe(const std::string& url) {
   StreamInfo stream{.kind = StreamKind::Video, .codec = kNpy.codec, .counted = true, .frame_period = kPeriod};
   const auto found = findArray(url, stream.tags);
-  const auto header = found ? npy::parseHeader(beginning()) : std::nullopt;
+  const std::vector<std::uint8_t> begin = found ? beginning() : std::vector<std::uint8_t>();
+  const auto header = found ? npy::parseHeader(begin) : std::nullopt;
   if (const auto failure = file_.failure()) return std::unexpected(*failure);
   if (!found) return std::unexpected(found.error());
-  if (!header) {
-    return fail(ErrorCode::Unsupported,
-                "this array is no picture: give floats or whole numbers of rows x columns, or pictures x rows x "
-                "columns, with at most 16.7 million samples and 300 MB a picture; rows x columns x pictures are put in "
-                "order by numpy.moveaxis(a, -1, 0)");
-  }
+  if (!header) return fail(ErrorCode::Unsupported, whyNoPicture(begin));
   if (header->fortran && header->pictures > 1) {
     return fail(ErrorCode::Unsupported,
                 "a film in Fortran order cannot be read picture by picture; save numpy.ascontiguousarray(film)");

@@ -88,5 +88,22 @@ TEST(NumbersBelowZero, ThatSayNothingThereAreHoles) {
   EXPECT_EQ(codeIn(few, 3, 1), 0U);
 }
 
+// Dictionaries of robots' grasps, and colour with depth in one array.
+TEST(Npy, WhatHoldsDepthInAnotherWaySaysHowToTakeItOut) {
+  const test::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& type, const std::string& shape) {
+    std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }";
+    header.resize(117, ' ');
+    std::ofstream(folder / "z.npy", std::ios::binary)
+        << std::string("\x93NUMPY\x01\0", 8) << static_cast<char>(header.size() + 1) << '\0' << header << '\n'
+        << std::string(512, 'x');
+    const auto opened = drivers::makeMediaSource(folder / "z.npy")->open(folder / "z.npy");
+    return opened ? std::string() : std::string(opened.error().message);
+  };
+  EXPECT_NE(refusal("|O", "").find("allow_pickle=True"), std::string::npos);
+  EXPECT_NE(refusal("<f4", "240, 320, 4").find("a[..., 3]"), std::string::npos);
+  EXPECT_NE(refusal("<c8", "4, 16").find("rows x columns"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace relievo
