@@ -197,8 +197,10 @@ TEST_F(GamepadUinput, TheListSaysWhatEachCanDoAndWhatIsMissing) {
 
 TEST_F(GamepadUinput, APadWithoutForceFeedbackIsNamedWithWhatToDo) {
   PadFacts facts = test::xboxPad();
+  facts.forces = {};
   facts.effects_at_once = 0;
   const UinputPad pad(facts);
+  ASSERT_FALSE(pad.node().empty());
   const auto seen = lookAtGamepads();
   ASSERT_EQ(seen.size(), 1U);
   EXPECT_EQ(seen[0].path, pad.node());

@@ -21,7 +21,8 @@ bool UinputPad::canBeMade() {
 
 UinputPad::UinputPad(const PadFacts& facts) : fd_(::open("/dev/uinput", O_RDWR | O_NONBLOCK | O_CLOEXEC)) {
   const int fd = fd_.get();
-  for (const int type : {EV_SYN, EV_KEY, EV_ABS, EV_FF}) ::ioctl(fd, UI_SET_EVBIT, type);
+  for (const int type : {EV_SYN, EV_KEY, EV_ABS}) ::ioctl(fd, UI_SET_EVBIT, type);
+  if (facts.effects_at_once > 0) ::ioctl(fd, UI_SET_EVBIT, EV_FF);  // the kernel makes no device with it and no effects
   for (unsigned code = 0; code < KEY_CNT; ++code) {
     if (facts.keys.has(code)) ::ioctl(fd, UI_SET_KEYBIT, code);
   }
