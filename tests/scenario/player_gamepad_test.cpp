@@ -114,6 +114,7 @@ TEST_F(PlayerOnAGamepad, FeelsTheFilmInItsRumbleAndRestsInAPause) {
   EXPECT_GT(sent, 0.5 * 65535);
   std::ifstream file(folder_ / "r.json");
   const auto report = nlohmann::json::parse(file);
+  EXPECT_THAT(report["states"].dump(), testing::HasSubstr("paused")) << "what rested was no film that began again";
   EXPECT_EQ(report["haptic"]["device"], "gamepad");
   const double told_ns = report["haptic"]["contact_told_ns"]["max"].get<double>();
   EXPECT_GT(told_ns, 0);
