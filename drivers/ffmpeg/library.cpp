@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <limits>
+#include <mutex>
 
 #include "drivers/ffmpeg/ffmpeg.h"
 #include "platform/unique_fd.h"
@@ -16,15 +18,34 @@ extern "C" {
 }
 
 namespace relievo {
+namespace {
+
+std::mutex blocks;                                         // guards what follows
+std::size_t usual_most = std::numeric_limits<int>::max();  // FFmpeg's own
+int refusals = 0;
+
+void boundBlocks() noexcept {
+  constexpr std::size_t kSmall = 1'000'000;
+  av_max_alloc(refusals > 0 ? kSmall : usual_most);
+}
+
+}  // namespace
 
 void boundFfmpegBlocks() noexcept {
-  constexpr std::size_t kMost = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
-  av_max_alloc(kMost);
+  const std::scoped_lock lock(blocks);
+  usual_most = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
+  boundBlocks();
 }
 
 }  // namespace relievo
 
 namespace relievo::ffmpeg {
+
+void refuseLargeBlocks(bool refused) noexcept {
+  const std::scoped_lock lock(blocks);
+  refusals += refused ? 1 : -1;
+  boundBlocks();
+}
 
 void silenceLibrary() noexcept {
   static const bool done = [] {

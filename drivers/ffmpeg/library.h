@@ -58,6 +58,9 @@ template <class T, class Deleter>
 // Stops FFmpeg from printing to stderr, since the program prints its own messages.
 void silenceLibrary() noexcept;
 
+// While it is refused more often than allowed again, FFmpeg gets no block over 1 MB in the whole process. Any thread.
+void refuseLargeBlocks(bool refused) noexcept;
+
 [[nodiscard]] Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept;
 
 // The errno in an FFmpeg error code, or 0 if the code is FFmpeg's own.

@@ -6,6 +6,7 @@
 
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/opening/apart.h"
+#include "drivers/ffmpeg/opening/memory.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "platform/files/file_system_answer.h"
 
@@ -28,15 +29,19 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
   input->watch().begin(kOpenPatience);
   passOn(input->watch());  // a short film would be open before the first look
   const auto opened = std::make_shared<Result<Input::Opened>>();
-  const auto work = [input, url, parts_from, opened] {
+  const auto memory = std::make_shared<OpeningMemory>();
+  const auto work = [input, url, parts_from, opened, memory] {
     const CancelsAnswers cancels(input->watch().cancelFlag());
     *opened = openKept(input, url, parts_from);
+    if (memory->end()) *opened = std::unexpected(kTooMuchMemory);
   };
-  const auto ended = runApart(work, [&watch = input->watch()] {
+  const auto ended = runApart(work, [&watch = input->watch(), &memory] {
     passOn(watch);
+    if (memory->exceeded()) watch.cancel();
     return watch.givesUp();
   });
   if (!ended) return std::unexpected(ended.error());
+  if (!*ended && memory->exceeded()) return std::unexpected(kTooMuchMemory);
   if (*ended) return std::move(*opened);
   const bool interrupted = input->watch().cancelled();
   input->watch().cancel();

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <initializer_list>
 #include <span>
+#include <utility>
 
 #include "drivers/ffmpeg/bounds/mp4_bounds.h"
 #include "tests/support/files.h"
+#include "tests/support/network/http_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
 namespace relievo {
@@ -66,6 +68,38 @@ TEST(Mp4Film, WithMoreThan8MillionSamplesIsRefusedBeforeFFmpegReadsThem) {
   const Error error = openErrorOf(path);
   EXPECT_EQ(error.code, ErrorCode::Unsupported);
   EXPECT_THAT(error.message, HasSubstr("more than 8 million pictures"));
+}
+
+// Where the first box of that type begins, and its size.
+std::pair<std::size_t, std::size_t> placeOf(const std::string& bytes, const std::string& type) {
+  const std::size_t place = bytes.find(type) - 4;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < 4; ++i) size = size << 8 | static_cast<std::uint8_t>(bytes[place + i]);
+  return {place, size};
+}
+
+// The lists of a server's film are not looked at. Without a bound these six tracks take 1.4 GB; the program goes on.
+TEST(Mp4Film, OfAServerMayNotFillTheMemory) {
+  const TemporaryFolder folder;
+  test::makeClip(folder / "film.mov", {{.codec = "rawvideo", .pix_fmt = "rgb24", .frames = 2}});
+  std::string bytes = test::contentOf(folder / "film.mov");
+  bytes.replace(placeOf(bytes, "stsz").first + 16, 4, bigEndian(10'000'000));
+  bytes.replace(placeOf(bytes, "stsc").first + 20, 4, bigEndian(10'000'000));
+  bytes.replace(bytes.find("edts"), 4, "skip");  // which would leave two pictures in the end
+  const auto [track, track_bytes] = placeOf(bytes, "trak");
+  const auto [header, header_bytes] = placeOf(bytes, "moov");
+  const std::string more = repeated(bytes.substr(track, track_bytes), 5);
+  bytes.insert(header + header_bytes, more);
+  bytes.replace(header, 4, bigEndian(header_bytes + more.size()));
+  writeFile(folder / "film.mov", bytes);
+  test::makeClip(folder / "good.mp4", {kH264});
+  const test::HttpServer server(folder / "");
+  const Error error = openErrorOf(server.url("film.mov"));
+  EXPECT_EQ(error.code, ErrorCode::Exhausted) << error.message;
+  EXPECT_THAT(error.message, HasSubstr("over 800 MB of memory"));
+  const auto good = makeFfmpegSource();
+  ASSERT_TRUE(good->open(server.url("good.mp4")));
+  EXPECT_EQ(readAll(*good).size(), 48u);
 }
 
 TEST(Mp4Film, SamplesOfAllTracksAndTheirEditsCountTogether) {
