@@ -3,6 +3,9 @@
 #include "drivers/egl/y4m_writer.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +18,8 @@
 
 namespace relievo {
 namespace {
+
+constexpr const char* kCannotWrite = "the capture file cannot be written; check its folder and permissions";
 
 // In periods: how late a picture may be before the last one is repeated, and how early before it is dropped. A picture
 // that jitter makes late and the file then repeats leaves the next one half a period early: it is kept.
@@ -43,10 +48,18 @@ ErrorCode codeOf(int os_error) noexcept {
 UniqueFd openCapture(const std::string& path) noexcept {
   constexpr int kLooks = 50;
   for (int look = 0;; ++look) {
-    UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0666));
+    UniqueFd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666));
     if (fd.valid() || errno != ENXIO || look == kLooks) return fd;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+}
+
+// Two programs that write one file would mix their pictures. False, with errno: another one writes it.
+bool takeForItself(int fd) noexcept {
+  struct stat status{};
+  if (::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) return true;
+  if (::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;  // some mounts have no locks
+  return ::ftruncate(fd, 0) == 0;
 }
 
 }  // namespace
@@ -64,10 +77,15 @@ Result<Y4mWriter> Y4mWriter::create(const std::string& path, int width, int heig
   if (!fd.valid() && errno == ENXIO) {
     return fail(ErrorCode::Io, "no program reads this pipe; start its reader first", errno);
   }
+  if (fd.valid() && !takeForItself(fd.get())) {
+    const bool is_taken = errno == EWOULDBLOCK;
+    return fail(ErrorCode::Io, is_taken ? "another program writes this file; choose another file" : kCannotWrite,
+                errno);
+  }
   const bool waits = fd.valid() && ::fcntl(fd.get(), F_SETFL, O_WRONLY) == 0;
   std::FILE* const file = waits ? ::fdopen(fd.get(), "wb") : nullptr;
   if (file == nullptr) {
-    return fail(codeOf(errno), "the capture file cannot be written; check its folder and permissions", errno);
+    return fail(codeOf(errno), kCannotWrite, errno);
   }
   static_cast<void>(fd.release());
   const long thousandths = std::lround(rate * 1000.0);

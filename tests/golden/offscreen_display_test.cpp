@@ -223,6 +223,24 @@ TEST(OffscreenDisplay, CaptureBeginsAnewWhenOpenedAgain) {
   EXPECT_EQ(file.content(), first);
 }
 
+// As by two players at once.
+TEST(OffscreenDisplay, CaptureThatIsBeingWrittenIsLeftToItsWriter) {
+  const CaptureFile file("one.y4m");
+  const auto first = makeOffscreenDisplay(Capture::parse(file.path()), kStill);
+  OPEN_OR_SKIP(*first, {2, 2});
+  ASSERT_TRUE(first->beginFrame());
+  fill(1, 1, 1);
+  ASSERT_TRUE(first->present());
+  const auto second = makeOffscreenDisplay(Capture::parse(file.path()), kStill);
+  const auto opened = second->open({4, 4});
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Io);
+  EXPECT_NE(std::string_view(opened.error().message).find("another program writes this file"), std::string_view::npos);
+  first->close();
+  EXPECT_TRUE(file.content().starts_with("YUV4MPEG2 W2 H2 "));
+  EXPECT_TRUE(second->open({4, 4}));
+}
+
 TEST(OffscreenDisplay, RateIsTheNumberBehindTheLastAt) {
   const CaptureFile with_rate("me@home.y4m");
   const auto display = makeOffscreenDisplay(Capture::parse(with_rate.path() + "@29.97"), kStill);
