@@ -96,21 +96,27 @@ class Player:
                 time.sleep(0.05)
         self.heard, self.asked, self.slowest_s, self.ran_s = b"", 0, 0, 0
 
-    def main_thread_s(self):
-        """How long the main thread has run, and how long it has waited for a processor."""
+    @staticmethod
+    def thread_s(task):
+        """How long a thread has run, and how long it has waited for a processor."""
         try:
-            with open(f"/proc/{self.process.pid}/task/{self.process.pid}/schedstat", encoding="ascii") as file:
+            with open(f"/proc/{task}/schedstat", encoding="ascii") as file:
                 return [int(word) / 1e9 for word in file.read().split()[:2]]
         except OSError:
             return [0, 0]
+
+    def main_thread_s(self):
+        return self.thread_s(f"{self.process.pid}/task/{self.process.pid}")
 
     def starved_s(self):
         return self.main_thread_s()[1]
 
     def ask(self, words):
-        """The answer and the seconds until it came, without those that the player waited for a processor."""
+        """The answer and the seconds until it came, without those that the player or this program waited for a
+        processor."""
         self.asked += 1
-        (ran, starved), began = self.main_thread_s(), time.monotonic()
+        mine = f"self/task/{threading.get_native_id()}"
+        (ran, starved), (_, delayed), began = self.main_thread_s(), self.thread_s(mine), time.monotonic()
         try:
             self.socket.sendall(json.dumps({"do": words, "id": self.asked}).encode() + b"\n")
             self.socket.settimeout(MISSING_S)
@@ -129,7 +135,7 @@ class Player:
         except OSError:
             return None, time.monotonic() - began
         took, now = time.monotonic() - began, self.main_thread_s()
-        took -= now[1] - starved
+        took -= now[1] - starved + self.thread_s(mine)[1] - delayed
         self.ran_s = now[0] - ran
         self.slowest_s = max(self.slowest_s, took)
         return answer, took
