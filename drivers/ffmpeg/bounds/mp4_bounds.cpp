@@ -14,34 +14,24 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/ffmpeg/bounds/mp4_track.h"
+
 namespace relievo::ffmpeg {
 namespace {
 
 constexpr std::uint64_t kNoEnd = std::uint64_t{1} << 62;  // the kernel refuses to read beyond 2^63
-constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{16} << 20, kMostRunBytes = std::uint64_t{8} << 20;
+constexpr std::uint64_t kMostHeaderBytes = std::uint64_t{16} << 20;
+constexpr std::uint64_t kMostTableBytes = std::uint64_t{128} << 20;  // that are read, of all tracks
 constexpr int kMostBoxes = 100'000, kMostTracks = 1000, kMostFragments = 200'000;
 constexpr int kDeepest = 10;                                        // as in FFmpeg
 constexpr int kLaterBoxes = 64;                                     // that are looked at behind the header
 constexpr std::uint64_t kSoundPiece = 1024, kShortestPacket = 160;  // samples of sound that FFmpeg takes together
 
-constexpr std::uint32_t type(std::string_view name) {
-  std::uint32_t value = 0;
-  for (const char c : name) value = value << 8 | static_cast<std::uint8_t>(c);
-  return value;
+using Box = Mp4Box;
+
+constexpr std::uint32_t type(std::string_view name) noexcept {
+  return mp4Type(name);
 }
-
-std::uint64_t bigEndian(std::span<const std::uint8_t> bytes) {
-  std::uint64_t value = 0;
-  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
-  return value;
-}
-
-struct Box {
-  std::uint32_t type = 0;
-  std::uint64_t data = 0, end = 0;
-
-  [[nodiscard]] std::uint64_t bytes() const noexcept { return end - data; }
-};
 
 std::optional<Box> boxAt(const Readable& file, std::uint64_t place, std::uint64_t end) {
   std::array<std::uint8_t, 16> head{};
@@ -80,14 +70,6 @@ class Tables {
   }
 
  private:
-  // What a track's tables say.
-  struct Track {
-    std::uint64_t samples = 0, chunks = 0, edits = 0;
-    Box runs;                           // of chunks with as many samples
-    std::uint64_t piece = kSoundPiece;  // samples that FFmpeg takes together
-    bool picture = false, sound = false, ticks = false;
-  };
-
   static bool isNamed(const Box& box) noexcept {
     for (int shift = 0; shift < 32; shift += 8) {
       const auto c = static_cast<std::uint8_t>(box.type >> shift);
@@ -104,12 +86,8 @@ class Tables {
     if (samples_ > kMostMp4Samples) exceed(kTooManyMp4Samples);
   }
 
-  // 0 where there is nothing.
   [[nodiscard]] std::uint64_t numberIn(const Box& box, std::uint64_t at, std::size_t size = 4) const {
-    std::array<std::uint8_t, 8> bytes{};
-    if (box.bytes() < at + size) return 0;
-    const std::span number = std::span(bytes).first(size);
-    return (*file_)(box.data + at, number) == size ? bigEndian(number) : 0;
+    return ffmpeg::numberIn(*file_, box, at, size);
   }
 
   void lookInto(const Box& parent, std::uint64_t from, int depth) {
@@ -152,32 +130,12 @@ class Tables {
 
   void noteTrack(const Box& box, int depth) {
     if (++tracks_ > kMostTracks) return exceed(kTooManyMp4Boxes);
-    const Track before = std::exchange(track_, {});
+    const Mp4Track before = std::exchange(track_, {});
     lookInto(box, box.data, depth + 1);
-    const bool in_chunks = track_.sound && !track_.picture && track_.ticks;
-    const std::uint64_t entries = in_chunks ? soundPieces() : track_.samples;
-    const std::uint64_t edits = std::clamp<std::uint64_t>(track_.edits, 2, kMostMp4Samples);  // the first is empty
-    add(std::min(entries, 2 * kMostMp4Samples) * (edits - 1));                                // each may repeat all
+    if (exceeded_ != nullptr) return;
+    const auto entries = entriesOf(*file_, track_, per_second_, kMostMp4Samples, budget_);
+    add(entries.value_or(kNoEnd));
     track_ = before;
-  }
-
-  // Of sound that is not coded, where each sample of a chunk counts by itself.
-  [[nodiscard]] std::uint64_t soundPieces() {
-    constexpr std::uint64_t kRunBytes = 12;
-    if (track_.runs.bytes() > kMostRunBytes) exceed(kTooManyMp4Samples);
-    if (exceeded_ != nullptr) return 0;
-    std::vector<std::uint8_t> runs(static_cast<std::size_t>(track_.runs.bytes()));
-    runs.resize((*file_)(track_.runs.data, runs));
-    const std::span bytes(runs);
-    std::uint64_t pieces = 0;
-    for (std::size_t at = 8; at + kRunBytes <= runs.size(); at += kRunBytes) {
-      const std::uint64_t first = bigEndian(bytes.subspan(at, 4)), samples = bigEndian(bytes.subspan(at + 4, 4));
-      const bool last = at + 2 * kRunBytes > runs.size();
-      const std::uint64_t next = last ? track_.chunks + 1 : bigEndian(bytes.subspan(at + kRunBytes, 4));
-      const std::uint64_t chunks = std::min(next > first ? next - first : 0, track_.chunks);
-      pieces += std::min(chunks * ((samples + track_.piece - 1) / track_.piece), 2 * kMostMp4Samples);
-    }
-    return pieces;
   }
 
   // Of a list of what a track's samples are. FFmpeg takes packets of 160 samples and more one by one, as many shorter
@@ -194,13 +152,23 @@ class Tables {
     const auto count = [&] { return numberIn(box, 4); };
     if (box.type == type("stsz") || box.type == type("stz2")) track_.samples += numberIn(box, 8);
     else if (box.type == type("stts")) track_.ticks = count() == 1 && numberIn(box, 12) == 1;
-    else if (box.type == type("stsc")) track_.runs = box;
     else if (box.type == type("stco")) track_.chunks += std::min(count(), box.bytes() / 4);
     else if (box.type == type("co64")) track_.chunks += std::min(count(), box.bytes() / 8);
-    else if (box.type == type("elst")) track_.edits += box.bytes() / (numberIn(box, 0, 1) == 1 ? 20 : 12);
+    else if (box.type == type("elst")) track_.shows += box.bytes() / (numberIn(box, 0, 1) == 1 ? 20 : 12);
     else if (box.type == type("stsd")) track_.piece = std::min(track_.piece, pieceOf(box));
     else if (box.type == type("hdlr")) track_.picture = track_.picture || numberIn(box, 8) == type("vide");
+    else if (box.type == type("mdhd")) track_.per_second = numberIn(box, numberIn(box, 0, 1) == 1 ? 20 : 12);
+    else if (box.type == type("mvhd")) per_second_ = numberIn(box, numberIn(box, 0, 1) == 1 ? 20 : 12);
     if (box.type == type("hdlr")) track_.sound = track_.sound || numberIn(box, 8) == type("soun");
+    keep(box);
+  }
+
+  void keep(const Box& box) noexcept {
+    if (box.type == type("elst")) track_.edits.note(box);
+    else if (box.type == type("stts")) track_.times.note(box);
+    else if (box.type == type("stss")) track_.keys.note(box);
+    else if (box.type == type("ctts")) track_.shifts.note(box);
+    else if (box.type == type("stsc")) track_.runs.note(box);
   }
 
   void noteList(const Box& box) {
@@ -230,9 +198,10 @@ class Tables {
   }
 
   const Readable* file_;
-  Track track_;
+  Mp4Track track_;
   bool has_header_ = false, is_part_ = false;  // of a film whose header is another file
-  std::uint64_t samples_ = 0;
+  std::uint64_t samples_ = 0, budget_ = kMostTableBytes;
+  std::uint64_t per_second_ = 0;  // ticks of the film's edits
   int boxes_ = 0, tracks_ = 0, tags_ = 0, fragments_ = 0;
   const char* exceeded_ = nullptr;
 };

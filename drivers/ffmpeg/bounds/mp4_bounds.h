@@ -11,8 +11,10 @@ namespace relievo::ffmpeg {
 // Ten hours of colour and depth, 60 pictures a second each, with sound are six million.
 inline constexpr std::uint64_t kMostMp4Samples = 8'000'000;
 inline constexpr const char* kTooManyMp4Samples =
-    "it is an MP4 or QuickTime film whose tables have more than 8 million pictures and pieces of sound, the most that "
-    "they may have; cut it in two: ffmpeg -i FILE -map 0 -c copy -f segment -segment_time 1:00:00 film-%d.mkv";
+    "it is an MP4 or QuickTime film whose tables and edits list more than 8 million samples (pictures, pieces of "
+    "sound, "
+    "readings of sensors), the most that they may list; cut it: ffmpeg -i FILE -map 0:v -map 0:a? -c copy -f segment "
+    "-segment_time 1:00:00 film-%d.mkv";
 inline constexpr int kMostMp4Tags = 5000;
 inline constexpr const char* kTooManyMp4Tags =
     "it is an MP4 or QuickTime film with more than 5000 tags, the most that it may have; convert it without them: "

@@ -67,7 +67,7 @@ TEST(Mp4Film, WithMoreThan8MillionSamplesIsRefusedBeforeFFmpegReadsThem) {
   writeFile(path, bytes);
   const Error error = openErrorOf(path);
   EXPECT_EQ(error.code, ErrorCode::Unsupported);
-  EXPECT_THAT(error.message, HasSubstr("more than 8 million pictures"));
+  EXPECT_THAT(error.message, HasSubstr("more than 8 million samples"));
 }
 
 // Where the first box of that type begins, and its size.
@@ -152,6 +152,53 @@ TEST(Mp4Film, SoundInPacketsOfASampleCountsBy1024) {
   EXPECT_THAT(exceeded(film(soundIn(soundEntry("lpcm", 2, 160), tens))), StrEq(ffmpeg::kTooManyMp4Samples));
   EXPECT_THAT(exceeded(film(soundIn(soundEntry("agsm", 0, 0), tens))), StrEq(ffmpeg::kTooManyMp4Samples));
   EXPECT_THAT(exceeded(film(soundIn(soundEntry("lpcm", 2, 161), 7 * kHour))), IsNull());
+}
+
+// Edits of `seconds` that follow each other, in a film of 1000 ticks a second.
+std::string shown(std::size_t edits, std::uint64_t seconds, std::uint64_t ticks) {
+  std::string rows;
+  for (std::uint64_t i = 0; i < edits; ++i)
+    rows += bigEndian(1000 * seconds) + bigEndian(i * seconds * ticks) + bigEndian(0x10000);
+  return box("edts", table("elst", {edits}, rows));
+}
+std::string ticksOf(const char* type, std::uint64_t ticks) {
+  return table(type, {0, 0, ticks, 0});
+}
+// An hour of 60 pictures a second, 600 ticks, in `edits` edits.
+std::string edited(std::size_t edits, const std::string& tables, std::uint64_t ticks = 600) {
+  constexpr std::uint64_t kPictures = 216'000;
+  return film(ticksOf("mvhd", 1000) + track("vide", table("stsz", {0, kPictures}) + tables,
+                                            shown(edits, 3600 / edits, ticks) + box("mdia", ticksOf("mdhd", 600))));
+}
+
+// 40 edits of one and a half minutes: ffprobe reads 216,000 packets.
+TEST(Mp4Film, EditsCountByWhatTheyShow) {
+  const std::string times = table("stts", {1, 216'000, 10});
+  EXPECT_THAT(exceeded(edited(40, times)), IsNull()) << "each picture is a key frame";
+  std::string second;
+  for (std::uint64_t i = 0; i < 3600; ++i) second += bigEndian(1 + 60 * i);
+  const std::string keys = table("stss", {3600}, second);
+  EXPECT_THAT(exceeded(edited(40, times + keys + table("ctts", {1, 216'000, 20}))), IsNull());
+  EXPECT_THAT(exceeded(edited(36, times + table("stss", {1, 1}))), IsNull()) << "all of 36 times";
+  EXPECT_THAT(exceeded(edited(40, times + table("stss", {1, 1}))), StrEq(ffmpeg::kTooManyMp4Samples));
+  EXPECT_THAT(exceeded(edited(40, times + table("stss", {0}))), StrEq(ffmpeg::kTooManyMp4Samples)) << "no key frame";
+  const std::string dense = table("stts", {2, 215'999, 0, 1, 2'159'990});
+  EXPECT_THAT(exceeded(edited(40, times, 0)), IsNull()) << "all show the first 90 seconds";
+  EXPECT_THAT(exceeded(edited(40, dense, 0)), StrEq(ffmpeg::kTooManyMp4Samples)) << "in which all pictures are";
+  EXPECT_THAT(exceeded(edited(90, times + keys)), IsNull());
+  EXPECT_THAT(exceeded(edited(90, times + keys + table("ctts", {2, 1, 0, 1, 0x7FFFFFFF}))),
+              StrEq(ffmpeg::kTooManyMp4Samples))
+      << "each begins with the first picture";
+}
+
+TEST(Mp4Film, EditsOfSoundCountByWhatTheyShow) {
+  const std::string sound = soundIn(soundEntry("in24", 1, 1), 36'000);  // 1.7 million pieces
+  const auto with = [&](std::uint64_t seconds) {
+    return film(ticksOf("mvhd", 1000) +
+                box("trak", sound.substr(8) + shown(40, seconds, 48'000) + box("mdia", ticksOf("mdhd", 48'000))));
+  };
+  EXPECT_THAT(exceeded(with(900)), IsNull());
+  EXPECT_THAT(exceeded(with(36'000)), StrEq(ffmpeg::kTooManyMp4Samples));
 }
 
 TEST(Mp4Film, FragmentsTracksAndTagsAreBoundedToo) {
