@@ -131,7 +131,9 @@ class Tables {
   void noteTrack(const Box& box, int depth) {
     if (++tracks_ > kMostTracks) return exceed(kTooManyMp4Boxes);
     const Mp4Track before = std::exchange(track_, {});
+    const bool in_another = std::exchange(in_track_, true);
     lookInto(box, box.data, depth + 1);
+    in_track_ = in_another;
     if (exceeded_ != nullptr) return;
     const auto entries = entriesOf(*file_, track_, per_second_, kMostMp4Samples, budget_);
     add(entries.value_or(kNoEnd));
@@ -180,8 +182,9 @@ class Tables {
     if (tags_ > kMostMp4Tags) exceed(kTooManyMp4Tags);
   }
 
-  // A packed header: what it is packed by, its length, and a stream of zlib.
+  // A packed header: what it is packed by, its length, and a stream of zlib. A film has one.
   void unpack(const Box& box, int depth) {
+    if (std::exchange(unpacked_, true) || in_track_) return exceed(kTooLongMp4Header);
     constexpr std::uint64_t kStream = 24;
     const std::uint64_t length = numberIn(box, kStream - 4);
     if (box.bytes() < kStream || box.bytes() > kMostHeaderBytes || length > kMostHeaderBytes)
@@ -199,7 +202,8 @@ class Tables {
 
   const Readable* file_;
   Mp4Track track_;
-  bool has_header_ = false, is_part_ = false;  // of a film whose header is another file
+  bool has_header_ = false, unpacked_ = false, in_track_ = false;
+  bool is_part_ = false;  // of a film whose header is another file
   std::uint64_t samples_ = 0, budget_ = kMostTableBytes;
   std::uint64_t per_second_ = 0;  // ticks of the film's edits
   int boxes_ = 0, tracks_ = 0, tags_ = 0, fragments_ = 0;

@@ -225,17 +225,27 @@ TEST(Mp4Film, NothingHidesInOtherHeaders) {
               StrEq(ffmpeg::kTooManyMp4Samples));
   EXPECT_THAT(exceeded(bigEndian(1) + "mdat" + bigEndian(16, 8) + box("moov", many)),
               StrEq(ffmpeg::kTooManyMp4Samples));
-  const auto packed = [](const std::string& content, std::uint64_t length) {
+  const auto packedBox = [](const std::string& content, std::uint64_t length) {
     std::string stream(2 * content.size() + 100, '\0');
     uLongf bytes = stream.size();
     ::compress(reinterpret_cast<Bytef*>(stream.data()), &bytes, reinterpret_cast<const Bytef*>(content.data()),
                content.size());
     stream.resize(bytes);
-    return film(box("cmov", box("dcom", "zlib") + box("cmvd", bigEndian(length) + stream)));
+    return box("cmov", box("dcom", "zlib") + box("cmvd", bigEndian(length) + stream));
+  };
+  const auto packed = [&](const std::string& content, std::uint64_t length) {
+    return film(packedBox(content, length));
   };
   EXPECT_THAT(exceeded(packed(pictures(100), pictures(100).size())), IsNull());
   EXPECT_THAT(exceeded(packed(many, many.size())), StrEq(ffmpeg::kTooManyMp4Samples));
   EXPECT_THAT(exceeded(packed(many, 4'000'000'000)), StrEq(ffmpeg::kTooLongMp4Header));
+  // 1000 of them, 16 KB each, were unpacked for half a minute.
+  const std::string once = packedBox(pictures(100), pictures(100).size());
+  EXPECT_THAT(exceeded(film(once)), IsNull());
+  EXPECT_THAT(exceeded(film(once + once)), StrEq(ffmpeg::kTooLongMp4Header));
+  EXPECT_THAT(exceeded(film(once) + box("moov", once)), StrEq(ffmpeg::kTooLongMp4Header));
+  EXPECT_THAT(exceeded(packed(once, once.size())), StrEq(ffmpeg::kTooLongMp4Header)) << "one in another";
+  EXPECT_THAT(exceeded(film(box("trak", box("mdia", once)))), StrEq(ffmpeg::kTooLongMp4Header)) << "that of a track";
 }
 
 TEST(Mp4Film, OtherFilesAreLeftAsTheyAre) {
