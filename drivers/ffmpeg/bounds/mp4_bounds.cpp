@@ -176,10 +176,10 @@ class Tables {
   void noteList(const Box& box) {
     if (box.type == type("tfhd")) is_part_ = true;
     if (box.type == type("trun")) add(numberIn(box, 4));
-    if (box.type == type("sidx")) fragments_ += static_cast<int>(numberIn(box, numberIn(box, 0, 1) == 0 ? 22 : 30, 2));
-    if (box.type == type("keys")) tags_ += static_cast<int>(std::min(numberIn(box, 4), box.bytes() / 8));
+    if (box.type == type("sidx")) fragments_ += numberIn(box, numberIn(box, 0, 1) == 0 ? 22 : 30, 2);
+    if (box.type == type("keys")) names_ += std::min(numberIn(box, 4), box.bytes() / 8);
     if (fragments_ > kMostFragments) exceed(kTooManyMp4Boxes);
-    if (tags_ > kMostMp4Tags) exceed(kTooManyMp4Tags);
+    if (names_ > kMostMp4Tags) exceed(kTooManyMp4Tags);
   }
 
   // A packed header: what it is packed by, its length, and a stream of zlib. A film has one.
@@ -206,7 +206,8 @@ class Tables {
   bool is_part_ = false;  // of a film whose header is another file
   std::uint64_t samples_ = 0, budget_ = kMostTableBytes;
   std::uint64_t per_second_ = 0;  // ticks of the film's edits
-  int boxes_ = 0, tracks_ = 0, tags_ = 0, fragments_ = 0;
+  int boxes_ = 0, tracks_ = 0, tags_ = 0;
+  std::uint64_t fragments_ = 0, names_ = 0;  // of tags that stand in a list of their own
   const char* exceeded_ = nullptr;
 };
 

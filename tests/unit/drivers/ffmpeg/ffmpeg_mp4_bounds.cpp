@@ -214,6 +214,16 @@ TEST(Mp4Film, FragmentsTracksAndTagsAreBoundedToo) {
     return box("udta", table("meta", {}, table("hdlr", {0}, "mdir") + box("ilst", repeated(box("\xA9nam"), count))));
   };
   EXPECT_THAT(exceeded(film(tags(4990))), IsNull());
+  // QuickTime's have their names in a list of their own.
+  const auto named = [](std::size_t count, std::size_t said) {
+    const std::string names = table("keys", {said}, repeated(box("mdta", "name"), count));
+    return box("meta", table("hdlr", {0}, "mdta") + names + box("ilst", repeated(box(bigEndian(1)), count)));
+  };
+  EXPECT_THAT(exceeded(film(named(4990, 4990))), IsNull());
+  EXPECT_THAT(exceeded(film(named(5001, 5001))), StrEq(ffmpeg::kTooManyMp4Tags));
+  EXPECT_THAT(exceeded(film(table("keys", {5001}, std::string(8 * 5001, ' ')))), StrEq(ffmpeg::kTooManyMp4Tags));
+  const std::string endless = bigEndian(1) + "keys" + bigEndian(std::uint64_t{1} << 40, 8) + bigEndian(0);
+  EXPECT_THAT(exceeded(film("", box("free") + endless + bigEndian(0x80000000))), StrEq(ffmpeg::kTooManyMp4Tags));
   EXPECT_THAT(exceeded(film(tags(5001))), StrEq(ffmpeg::kTooManyMp4Tags));
   EXPECT_THAT(exceeded(film(repeated(box("free"), 100'001))), StrEq(ffmpeg::kTooManyMp4Boxes));
 }
