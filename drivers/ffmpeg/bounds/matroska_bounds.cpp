@@ -140,7 +140,7 @@ class Lists {
     kind.bytes += std::min(element.bytes, kFarthest);
     if (kind.bytes > kind.most) return exceed(kind.why);
     if (kind.listed) countItems(kind, element);
-    if (kind.id == kCues && kind.bytes > 2 * std::uint64_t{kMostCues}) countCues(element);  // two bytes each at least
+    if (kind.id == kCues) countCues(element);
     if (kind.id == kTags || &kind == &loose_) countTags(element);
     if (kind.id == kSeekHead) followSeeks(element);
   }

@@ -28,11 +28,12 @@ inline constexpr const char* kTooManyTracks =
 inline constexpr const char* kTooManyAttachments =
     "it is a Matroska film with more than 1000 attachments or 128 MiB of them, the most that it may have; copy it "
     "without them: ffmpeg -i FILE -map 0 -map -0:t -c copy film.mkv";
-// A place that a program writes takes 11 bytes for each of the two; those that hold nothing take FFmpeg 330 MB.
+// A place is a point in time and a position for each track that it names; as programs write them, they take 11 bytes
+// and more each. Those that hold nothing take FFmpeg 330 MB.
 inline constexpr int kMostCues = 2'500'000;
 inline constexpr const char* kTooManyCues =
-    "it is a Matroska film whose list of places to seek to is longer than 24 MiB or 1.2 million places, the most that "
-    "it may be; cut it in two: ffmpeg -i FILE -map 0 -c copy -f segment -segment_time 1:00:00 film-%d.mkv";
+    "it is a Matroska film whose list of places to seek to is longer than 24 MiB or 2.5 million points and positions, "
+    "the most that it may be; cut it: ffmpeg -i FILE -map 0 -c copy -f segment -segment_time 1:00:00 film-%d.mkv";
 // A film has about ten.
 inline constexpr const char* kTooManyElements =
     "it is a Matroska film with more than 1000 elements before its pictures, or 1 MiB of information or of places of "

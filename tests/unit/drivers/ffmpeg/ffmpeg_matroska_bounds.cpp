@@ -122,9 +122,11 @@ TEST_F(MatroskaFilm, WithListsThatTakeTooMuchMemoryIsRefused) {
   EXPECT_THAT(places.message, HasSubstr("places to seek to"));
   EXPECT_TRUE(makeFfmpegSource()->open(with(element(kCues, repeated(kCue, 25'000))))) << "of a usual length";
   const std::string of_nothing = element(kCues, repeated(kCue, 1'300'000));
-  EXPECT_THAT(openErrorOf(with(of_nothing)).message, HasSubstr("1.2 million places"));
+  EXPECT_THAT(openErrorOf(with(of_nothing)).message, HasSubstr("2.5 million points and positions"));
   const std::string damaged = element(kCues, std::string(100, '\0') + of_nothing);
-  EXPECT_THAT(openErrorOf(with(damaged)).message, HasSubstr("1.2 million places"));
+  EXPECT_THAT(openErrorOf(with(damaged)).message, HasSubstr("2.5 million points and positions"));
+  const std::string half = element(kCues, repeated(kCue, 650'000));
+  EXPECT_THAT(openErrorOf(with(half + half)).message, HasSubstr("2.5 million points and positions"));
   // As FFmpeg writes them: ten hours of 30 key frames a second.
   const std::string written =
       "\xBB\x94\xB3\x84\x01\x02\x03\x04\xB7\x8C\xF7\x81\x01\xF1\x84\x01\x02\x03\x04\xF0\x81\x10";
