@@ -237,10 +237,21 @@ double processorSeconds() {
 // Tags that come through a pipe, which nobody can look at before: when it has read them, FFmpeg computes for seconds,
 // in which it does not ask whether to go on.
 TEST_F(MatroskaFilm, InterruptEndsAnOpeningWhichFFmpegDoesNotEnd) {
-  const std::string film = path() + ".pipe", content = test::contentOf(with(tags(25'000)));
+  const std::string film = path() + ".pipe";
   ASSERT_EQ(::mkfifo(film.c_str(), 0600), 0);
+  std::string content;
+  double takes = 0;  // FFmpeg, for all of it, on this machine
+  for (int count = 10'000; takes < 1 && count <= 400'000; count += count / 2) {
+    content = test::contentOf(with(tags(count)));
+    std::thread writer([&] { writeFile(film, content); });
+    const double begun = processorSeconds();
+    const bool opened = makeFfmpegSource()->open(film).has_value();
+    takes = processorSeconds() - begun;
+    writer.join();
+    ASSERT_TRUE(opened);
+  }
+  if (takes < 1) GTEST_SKIP() << "FFmpeg reads 300,000 tags in " << takes << " s";
   const auto source = makeFfmpegSource();
-  ASSERT_TRUE(makeFfmpegSource()->open(path()));  // a thread that every opening uses stays
   const int before = threads();
   std::thread other([&] {
     writeFile(film, content);
