@@ -48,8 +48,9 @@ bool is(std::string_view name, const KnownKind* kind) {
 
 // Others record in mm, too, and lay their files out as TUM does.
 bool isOfMmAsTum(const DepthClues& clues, const Frame& stored, const CodeCount& count) {
-  return is("tum", clues.place.kind) && clues.place.origin == CalibrationOrigin::Name &&
-         isTooNearForKinect(count.together()) && is("mm", sensorKind(stored, count));
+  if (!is("tum", clues.place.kind) || clues.place.origin != CalibrationOrigin::Name) return false;
+  const KnownKind* const kind = sensorKind(stored, count);
+  return is("mm", kind) && (isTooNearForKinect(count.together()) || kindBySteps(count) == kind);
 }
 
 // Record3D states the range of the whole circle of hues, of which a film uses a part.

@@ -2,6 +2,8 @@
 #include "app/media/reading/codes/measured_codes.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 namespace relievo {
 namespace {
@@ -49,6 +51,41 @@ bool hasStereoSteps(const CodeCount& count) {
   }
   const double samples = count.share(kLast, kTop - 1) * static_cast<double>(count.samples());
   return nearer <= kMost && samples >= kOfEach * nearer;
+}
+
+std::optional<double> stereoConstant(const CodeCount& count) {
+  constexpr std::uint64_t kLeastSamples = 4;  // of a distance; fewer are made between two others
+  constexpr std::uint32_t kLeastStep = 4;     // rounding to whole codes hides smaller ones
+  constexpr std::size_t kFewest = 40;
+  constexpr double kSame = 1.3;
+  if (count.bits() != 16) return std::nullopt;
+  std::vector<double> constants;
+  std::uint32_t nearer = 0;
+  for (std::uint32_t code = 1; code < kTop; ++code) {
+    if (count.of(code) < kLeastSamples) continue;
+    if (nearer > 0 && code - nearer >= kLeastStep)
+      constants.push_back(static_cast<double>(code) * nearer / (code - nearer));
+    nearer = code;
+  }
+  if (constants.size() < kFewest) return std::nullopt;
+  std::ranges::sort(constants);
+  const std::size_t quarter = constants.size() / 4;
+  const bool same = constants[constants.size() - 1 - quarter] <= kSame * constants[quarter];
+  return same ? std::optional(constants[constants.size() / 2]) : std::nullopt;
+}
+
+const KnownKind* kindBySteps(const CodeCount& count) {
+  struct Constants {
+    double least, most;
+  };
+  constexpr Constants kMm{2.5e5, 1.7e6}, kTum{1.78e6, 1.92e6}, kTenths{2.15e6, 4.2e6};
+  const auto constant = stereoConstant(count);
+  const auto within = [&constant](const Constants& range) {
+    return constant && *constant >= range.least && *constant <= range.most;
+  };
+  if (within(kMm)) return findKind("mm");
+  if (within(kTum)) return findKind(count.quantile(kOutliers, 1, kTop - 1) < kLeastOfFine ? "mm" : "tum");
+  return within(kTenths) ? findKind("ycb") : nullptr;
 }
 
 }  // namespace relievo
