@@ -254,7 +254,7 @@ class FfmpegSource final : public MediaSource {
   Result<void> seekInList(MediaTime target) {
     constexpr Duration kEarlier = std::chrono::milliseconds(100);  // a list rounds the lengths of its parts
     const Duration last_second = duration() - std::chrono::seconds(1);
-    auto opened = opener_.open(url_, std::min(target.time_since_epoch() - kEarlier, last_second));
+    auto opened = opener_.open(url_, std::min(target.time_since_epoch() - kEarlier, last_second), context_.get());
     if (!opened) return std::unexpected(opened.error());
     context_ = std::move(opened->container);
     chooseProgramme(*context_);

@@ -58,7 +58,8 @@ int readSome(void* opaque, std::uint8_t* to, int bytes) {
 
 std::string laterParts(std::string_view list, Duration from) {
   if (!mayBeShortened(list)) return std::string(list);
-  std::string whole, part;  // what holds for the film, and for the next part
+  std::string whole, part, last;  // what holds for the film, and for the next part; the last part left out
+  std::size_t last_place = 0;
   Duration end{0};
   std::uint64_t first = 0, left_out = 0;
   bool begun = false;
@@ -77,9 +78,18 @@ std::string laterParts(std::string_view list, Duration from) {
       continue;
     }
     begun = begun || end > from;
-    if (begun) whole += part + line;
-    else ++left_out;
+    if (begun) {
+      whole += part + line;
+    } else {
+      ++left_out;
+      last = part + line;
+      last_place = whole.size();
+    }
     part.clear();
+  }
+  if (!begun && left_out > 0) {
+    --left_out;
+    whole.insert(last_place, last);
   }
   const std::size_t second = whole.find('\n') + 1;  // the first line says that it is a list
   return whole.insert(second, std::string(kNumber) + std::to_string(first + left_out) + "\n");

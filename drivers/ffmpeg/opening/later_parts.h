@@ -14,8 +14,8 @@ extern "C" {
 
 namespace relievo::ffmpeg {
 
-// A list of parts without those that end at or before `from` of its time. A list of lists, one that is not ended, or
-// whose times begin again, stays as it is.
+// A list of parts without those that end at or before `from` of its time, but for the last. A list of lists, one that
+// is not ended, or whose times begin again, stays as it is.
 [[nodiscard]] std::string laterParts(std::string_view list, Duration from);
 
 // Replaces an I/O context by one that reads the same list without its parts before `from`; the caller closes the first.

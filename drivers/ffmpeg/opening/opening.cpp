@@ -7,6 +7,7 @@
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/opening/apart.h"
 #include "drivers/ffmpeg/opening/memory.h"
+#include "drivers/ffmpeg/opening/seeks.h"
 #include "drivers/ffmpeg/refusal.h"
 #include "platform/files/file_system_answer.h"
 
@@ -18,6 +19,10 @@ Result<Input::Opened> openKept(const std::shared_ptr<Input>& input, const std::s
   if (opened) opened->container.get_deleter().input = input;
   return opened;
 }
+
+constexpr const char* kOtherTracks =
+    "the list has other tracks from there on, so it plays on from where it was; make it again with parts for the whole "
+    "film in every list";
 
 // What ends the calling thread's questions ends the opening.
 void passOn(Watch& watch) {
@@ -51,11 +56,14 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
 
 }  // namespace
 
-Result<Input::Opened> Opener::open(const std::string& url, Duration parts_from) {
+Result<Input::Opened> Opener::open(const std::string& url, Duration parts_from, const AVFormatContext* like) {
   const auto input = std::make_shared<Input>();
   watch(input);
   if (input_->watch().cancelled()) input->watch().cancel();
   auto opened = openApart(input, url, parts_from);
+  if (opened && like != nullptr && !haveSameStreams(*like, *opened->container)) {
+    opened = fail(ErrorCode::Unsupported, kOtherTracks);
+  }
   if (opened) {
     input_ = input;
     return opened;

@@ -18,8 +18,9 @@ class Opener {
   // Lets go of the input, and of an interrupt. Its container must be closed.
   void forgive();
   // What CancelsAnswers of the calling thread has interrupts it, too. If it fails, the input stays as it was.
-  // `parts_from`: see Input.
-  [[nodiscard]] Result<Input::Opened> open(const std::string& url, Duration parts_from = Duration(0));
+  // `parts_from`: see Input. `like`: it fails also if its streams are not of the same kinds in the same order.
+  [[nodiscard]] Result<Input::Opened> open(const std::string& url, Duration parts_from = Duration(0),
+                                           const AVFormatContext* like = nullptr);
   // Of the container that was opened last, which keeps it.
   [[nodiscard]] Input& input() const noexcept { return *input_; }
   // Ends `open`, or whatever reads the container. Any thread.

@@ -37,6 +37,13 @@ bool isListOfMp4(const AVFormatContext& context) noexcept {
                              [](const AVStream* stream) { return stream->codecpar->codec_tag > 0xff; });
 }
 
+bool haveSameStreams(const AVFormatContext& a, const AVFormatContext& b) noexcept {
+  return std::ranges::equal(
+      std::span(a.streams, a.nb_streams), std::span(b.streams, b.nb_streams), [](const AVStream* x, const AVStream* y) {
+        return x->codecpar->codec_type == y->codecpar->codec_type && x->codecpar->codec_id == y->codecpar->codec_id;
+      });
+}
+
 bool hasSubtitles(const AVFormatContext& context) noexcept {
   return std::ranges::any_of(std::span(context.streams, context.nb_streams),
                              [](const AVStream* stream) { return kindOf(*stream) == StreamKind::Subtitle; });

@@ -18,6 +18,9 @@ namespace relievo::ffmpeg {
 // Whether the film is a whole list whose parts are MP4: it is sought by its list (later_parts.h).
 [[nodiscard]] bool isListOfMp4(const AVFormatContext& context) noexcept;
 
+// Whether each stream has the same kind and codec in both.
+[[nodiscard]] bool haveSameStreams(const AVFormatContext& a, const AVFormatContext& b) noexcept;
+
 [[nodiscard]] bool hasSubtitles(const AVFormatContext& context) noexcept;
 
 struct SoughtPlace {

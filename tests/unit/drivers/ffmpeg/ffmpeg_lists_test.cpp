@@ -2,11 +2,14 @@
 // Seeks in HLS films that the ffmpeg program has made, local ones and from a server.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "drivers/ffmpeg/opening/later_parts.h"
+#include "tests/support/files.h"
 #include "tests/support/network/http_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
 
@@ -28,6 +31,9 @@ TEST(LaterParts, AreThoseThatEndLater) {
   EXPECT_EQ(laterParts(kWhole, fromSeconds(4.1)), head + "8" + map + second + last);
   EXPECT_EQ(laterParts(kWhole, fromSeconds(6.4)), head + "8" + map + second + last);
   EXPECT_EQ(laterParts(kWhole, fromSeconds(6.5)), head + "9" + map + last);
+  for (const double after_s : {9.4, 9.5, 60.0}) {
+    EXPECT_EQ(laterParts(kWhole, fromSeconds(after_s)), head + "9" + map + last) << "no list is without a part";
+  }
   EXPECT_EQ(laterParts(kWhole, fromSeconds(1)), head + "7" + map + "#EXTINF:4.0,\na.m4s\n" + second + last);
 }
 
@@ -59,6 +65,14 @@ class ListSeek : public testing::Test {
     writeFile(folder_ / "all.m3u8",
               "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=300000\nmp4.m3u8\n#EXT-X-STREAM-INF:BANDWIDTH=200000\nmp4.m3u8\n");
   }
+  // The film with another list for its sound.
+  [[nodiscard]] std::string withSound(const std::string& list) const {
+    writeFile(folder_ / "sound.m3u8", list);
+    writeFile(folder_ / "master.m3u8",
+              "#EXTM3U\n#EXT-X-MEDIA:TYPE=AUDIO,GROUP-ID=\"a\",NAME=\"E\",DEFAULT=YES,URI=\"sound.m3u8\"\n"
+              "#EXT-X-STREAM-INF:BANDWIDTH=300000,AUDIO=\"a\"\nmp4.m3u8\n");
+    return folder_ / "master.m3u8";
+  }
   // After a seek the pictures begin with a key frame at most a part's length before the target, and go on to the end.
   static void expectSeeks(const std::string& url) {
     SCOPED_TRACE(url);
@@ -83,6 +97,14 @@ class ListSeek : public testing::Test {
     }
   }
 
+  static double lastOf(MediaSource& source) {
+    double last_s = 0;
+    for (const Packet& packet : readAll(source)) {
+      if (packet.pts) last_s = std::max(last_s, toSeconds(packet.pts->time_since_epoch()));
+    }
+    return last_s;
+  }
+
   TemporaryFolder folder_;
 };
 
@@ -93,6 +115,33 @@ TEST_F(ListSeek, FindsItsPictures) {
 TEST_F(ListSeek, FindsItsPicturesOnAServer) {
   const test::HttpServer server(folder_ / "");
   for (const char* list : {"mp4.m3u8", "ts.m3u8", "all.m3u8"}) expectSeeks(server.url(list));
+}
+
+// FFmpeg crashed on a list of the sound without a part behind the target.
+TEST_F(ListSeek, BehindTheEndOfItsSoundFindsThePictures) {
+  std::string sound = test::contentOf(folder_ / "mp4.m3u8");
+  const std::size_t half = sound.find("mp44.m4s");
+  ASSERT_NE(half, std::string::npos);
+  sound = sound.substr(0, sound.rfind("#EXTINF", half)) + "#EXT-X-ENDLIST\n";
+  const std::string url = withSound(sound);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(url));
+  ASSERT_TRUE(source->seek(mediaTime(6)));
+  EXPECT_NEAR(lastOf(*source), 7.96, 0.1);
+}
+
+TEST_F(ListSeek, ThatFindsOtherTracksIsRefusedAndTheFilmGoesOn) {
+  const std::string url = withSound(test::contentOf(folder_ / "mp4.m3u8"));
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(url));
+  const std::size_t streams = source->streams().size();
+  writeFile(url, "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=300000\nmp4.m3u8\n");
+  const auto sought = source->seek(mediaTime(6));
+  ASSERT_FALSE(sought);
+  EXPECT_EQ(sought.error().code, ErrorCode::Unsupported);
+  std::set<int> read;
+  for (const Packet& packet : readAll(*source)) read.insert(packet.stream);
+  EXPECT_EQ(read.size(), streams);
 }
 
 }  // namespace
