@@ -17,6 +17,7 @@
 #include "drivers/ffmpeg/local_file.h"
 #include "drivers/ffmpeg/network_error.h"
 #include "drivers/ffmpeg/opening/later_parts.h"
+#include "drivers/ffmpeg/opening/lists.h"
 #include "drivers/ffmpeg/opening/part_languages.h"
 #include "drivers/ffmpeg/pictures/photo_size.h"
 #include "drivers/ffmpeg/refusal.h"
@@ -187,6 +188,12 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
   if (self.missing_ != url) self.noteLost();
   int opened = self.openAny(context, file, url, flags, options);
+  if (opened >= 0 && !self.opened_ && self.url_ != url && self.first_part_.empty() && isEmptyList(**file)) {
+    static_cast<void>(closeAny(context, std::exchange(*file, nullptr)));
+    if (self.parts_from_ == Duration(0))  // not again for a seek
+      log(LogLevel::Warning, "media", "%s: its list %s has no parts and is left out", self.url_.c_str(), url);
+    return AVERROR_INVALIDDATA;
+  }
   if (opened >= 0 && self.parts_from_ > Duration(0) && (isList(url) || self.url_ == url)) {
     opened = self.shorten(context, *file);
     if (file == &context->pb) {  // FFmpeg would take it for its own

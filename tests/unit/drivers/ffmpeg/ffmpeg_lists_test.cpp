@@ -144,5 +144,16 @@ TEST_F(ListSeek, ThatFindsOtherTracksIsRefusedAndTheFilmGoesOn) {
   EXPECT_EQ(read.size(), streams);
 }
 
+// FFmpeg crashed as soon as it read such a film.
+TEST_F(ListSeek, OfAFilmWhoseSoundHasNoPartFindsThePictures) {
+  for (const char* const end : {"#EXT-X-ENDLIST\n", ""}) {
+    const std::string url = withSound(std::string("#EXTM3U\n#EXT-X-TARGETDURATION:1\n") + end);
+    const auto source = makeFfmpegSource();
+    ASSERT_TRUE(source->open(url));
+    ASSERT_TRUE(source->seek(mediaTime(6)));
+    EXPECT_GT(readAll(*source).size(), 40u);
+  }
+}
+
 }  // namespace
 }  // namespace relievo
