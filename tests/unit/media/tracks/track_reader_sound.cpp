@@ -40,6 +40,25 @@ TEST(TrackReader, ReadsAheadForSoundThatLiesLate) {
   for (int k = 1; k < 100; ++k) ASSERT_EQ(film.next(0), 40 * k);
 }
 
+// Parts of 6 s, as in HLS: all pictures of a part, and then all its sound.
+TEST(TrackReader, ReadsAheadForSoundBehindThePicturesOfAPart) {
+  std::vector<Scripted> script;
+  for (const int part : {0, 1}) {
+    for (const int track : {0, 2}) {
+      for (int k = 0; k < 150; ++k) script.push_back({track, 6000 * part + 40 * k});
+    }
+  }
+  Film film(script);
+  film.listen();
+  std::size_t heard = 0;
+  for (int k = 0; k < 300; ++k) {
+    ASSERT_EQ(film.next(0), 40 * k);
+    do heard += film.sound().size();
+    while (heard <= static_cast<std::size_t>(k) && film.reader->readAhead());
+    ASSERT_GT(heard, static_cast<std::size_t>(k)) << "the sound of this picture";
+  }
+}
+
 TEST(TrackReader, ReadsNoFurtherAheadThanItsBound) {
   std::vector<Scripted> script;
   for (int k = 0; k < 1000; ++k) script.push_back({0, 40 * k});
