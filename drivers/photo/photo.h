@@ -20,7 +20,7 @@ struct PhotoPart {
   StreamInfo stream;
   std::span<const std::uint8_t> coded;
   PhotoBytes owner;
-  std::string note = {};  // a line for the user; empty if there is none
+  std::string note;  // a line for the user; empty if there is none
 };
 
 // A kind of photo: whether a file that begins with these bytes (64, or all of it) may be one; and its pictures, colour
