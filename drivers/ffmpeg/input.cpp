@@ -134,6 +134,9 @@ Result<Input::Opened> Input::open(const std::string& url, Duration parts_from) {
   if (lost_ > 0) tellLost(first_lost_);
 
   FormatPtr owned(context);
+  // A list of which no part came is no failure to FFmpeg.
+  if (owned->nb_streams == 0 && (watch_.givesUp() || (is_list_ && !any_part_)))
+    return std::unexpected(watch_.explain(kNoParts));
   if (hasPassedPictures(*owned)) return std::unexpected(kIndexBehind);
   if (!reads_files_) watch_.begin(kOpenPatience, late);
   words.listenTo(*context);
@@ -186,6 +189,7 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
                        AVDictionary** options) {
   auto& self = *static_cast<Input*>(context->opaque);
   if (++self.opens_ > kMostOpens) return AVERROR(ELOOP);
+  self.is_list_ = self.is_list_ || self.url_ != url;
   if (self.missing_ != url) self.noteLost();
   int opened = self.openAny(context, file, url, flags, options);
   if (opened >= 0 && !self.opened_ && self.url_ != url && self.first_part_.empty() && isEmptyList(**file)) {

@@ -86,6 +86,7 @@ class Input {
   bool in_gap_ = false;  // until a part can be opened
   unsigned lost_ = 0;    // parts that could not be opened
   unsigned losses_ = 0;
+  bool is_list_ = false;   // it has named other files or addresses
   bool any_part_ = false;  // could be opened, since then
   bool doubtful_ = false;
   std::int64_t doubtful_until_ = 0;  // the byte to which the container was read while it was opened, if it warned

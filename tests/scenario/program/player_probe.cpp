@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -17,6 +18,7 @@
 #include "tests/support/film/ts_patch.h"
 #include "tests/support/machine/process.h"
 #include "tests/support/machine/program.h"
+#include "tests/support/network/http_server.h"
 
 namespace relievo::test {
 namespace {
@@ -139,6 +141,21 @@ TEST_F(PlayerProgram, ProbeSaysWhatItWaitsFor) {
   EXPECT_THAT(said(), HasSubstr("waiting for \"" + at("film.mkv") + "\" (up to 30 s)"));
   probe.send(SIGKILL);
   EXPECT_EQ(probe.wait(), -SIGKILL);
+}
+
+// FFmpeg takes it for a film without tracks: it was waited for twice.
+TEST_F(PlayerProgram, AListWhosePartsAreSilentIsWaitedForOnce) {
+  std::ofstream(at("list.m3u8"))
+      << "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\na.m3u8\n#EXT-X-STREAM-INF:BANDWIDTH=2\nb.m3u8\n";
+  for (const char* part : {"a.m3u8", "b.m3u8"}) std::ofstream(at(part)) << "#EXTM3U\n";
+  HttpServer server(at(""));
+  for (const char* part : {"a.m3u8", "b.m3u8"}) server.faults[part] = {.stall = std::chrono::minutes(5)};
+  const auto probed = runProgram("relievo probe " + server.url("list.m3u8"), at(""));
+  EXPECT_EQ(probed.exit_code, 1);
+  EXPECT_THAT(probed.err, HasSubstr("none of its parts can be opened"));
+  const std::size_t told = probed.err.find("waiting for");
+  EXPECT_NE(told, std::string::npos) << probed.err;
+  EXPECT_EQ(probed.err.find("waiting for", told + 1), std::string::npos) << probed.err;
 }
 
 }  // namespace
