@@ -63,7 +63,7 @@ bool linkInto(const std::string& target, const std::string& nameless, Existing e
     return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
   };
   if (link(target)) return true;
-  if (existing == Existing::Keep) return false;
+  if (existing != Existing::Replace) return false;
   std::string beside;
   for (int i = 0; errno == EEXIST && i < 100; ++i) {
     beside = litterPattern(target);
@@ -159,10 +159,26 @@ void makeNow(const std::string& path, Made& made) {
 }
 
 // 0 or errno.
-int putInPlace(const std::string& target, const std::string& temporary, bool nameless, Existing existing) {
+int putAt(const std::string& target, const std::string& temporary, bool nameless, Existing existing) {
   if (nameless) return linkInto(target, temporary, existing) ? 0 : errno;
-  if (existing == Existing::Keep) return moveToNew(temporary, target);
+  if (existing != Existing::Replace) return moveToNew(temporary, target);
   return std::rename(temporary.c_str(), target.c_str()) == 0 ? 0 : errno;
+}
+
+struct Put {
+  std::string target;
+  int code = 0;  // or errno
+};
+Put putInPlace(const std::filesystem::path& target, const std::string& temporary, bool nameless, Existing existing) {
+  constexpr int kMostNames = 10'000;
+  Put put{target.string()};
+  for (int i = 2; i <= kMostNames; ++i) {
+    put.code = putAt(put.target, temporary, nameless, existing);
+    if (existing != Existing::Beside || put.code != EEXIST) break;
+    put.target =
+        (target.parent_path() / target.stem()).string() + "-" + std::to_string(i) + target.extension().string();
+  }
+  return put;
 }
 
 }  // namespace
@@ -257,8 +273,9 @@ Result<void> AtomicFile::moveIntoPlace() {
       answerOf(target_, [target = target_, temporary = temporary_, nameless = nameless_, existing = existing_,
                          held = output_] { return putInPlace(target, temporary, nameless, existing); });
   if (!moved) return std::unexpected(moved.error());
-  if (*moved == EEXIST) return fail(ErrorCode::Io, kThereMeanwhile, EEXIST);
-  if (*moved != 0) return fail(ErrorCode::Io, kCannotWrite, *moved);
+  if (moved->code == EEXIST) return fail(ErrorCode::Io, kThereMeanwhile, EEXIST);
+  if (moved->code != 0) return fail(ErrorCode::Io, kCannotWrite, moved->code);
+  if (moved->target != target_) path_ = target_ = moved->target;
   temporary_.clear();
   return {};
 }

@@ -13,7 +13,8 @@ namespace relievo {
 
 enum class Existing : std::uint8_t {
   Replace,
-  Keep,  // if the file exists at the commit, the commit fails: the first of several writers wins
+  Keep,    // if the file exists at the commit, the commit fails: the first of several writers wins
+  Beside,  // if the file exists at the commit, this one is put beside it: "run-2.json" beside "run.json"
 };
 
 // Where a file that is written to `path` is put: links are followed, also one to a file that is not there yet. `path`
@@ -39,6 +40,10 @@ class AtomicFile {
   // Syncs the file to disk, then puts it in place. Call once.
   [[nodiscard]] Result<void> commit();
 
+  // What the commit does with a file that exists, if that is known only after `create`.
+  void setExisting(Existing existing) noexcept { existing_ = existing; }
+
+  // As given; after a commit beside another file, the name that this one has.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   // The file before the commit, for a caller that writes at positions of its own choice instead of through `write`.
   [[nodiscard]] AnsweredOutput& output() noexcept { return output_; }

@@ -203,6 +203,21 @@ TEST_F(AtomicFileTest, OfTwoWritersThatReplaceNothingTheFirstOneWins) {
   EXPECT_EQ(filesInFolder(), 1);
 }
 
+TEST_F(AtomicFileTest, IsPutBesideAFileThatStaysUnderTheFirstFreeName) {
+  for (const char* name : {"a.json", "a-2.json"}) std::ofstream(at(name)) << name;
+  for (const char* expected : {"a-3.json", "a-4.json", "new.json"}) {
+    auto file = AtomicFile::create(at(std::string(expected).starts_with("a") ? "a.json" : "new.json"));
+    ASSERT_TRUE(file);
+    file->write("text");
+    file->setExisting(Existing::Beside);
+    ASSERT_TRUE(file->commit());
+    EXPECT_EQ(file->path(), at(expected));
+    EXPECT_EQ(contentOf(at(expected)), "text");
+  }
+  for (const char* name : {"a.json", "a-2.json"}) EXPECT_EQ(contentOf(at(name)), name);
+  EXPECT_EQ(filesInFolder(), 5);
+}
+
 TEST_F(AtomicFileTest, RemovesWhatAKilledWriterHasLeftAndNothingElse) {
   const UniqueFd held(::open(at("a.json.relievo-tmp-111111").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600));
   holdLitter(held.get());
