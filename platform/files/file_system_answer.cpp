@@ -208,10 +208,12 @@ FileSystemAnswers& fileSystem() {
   return answers;
 }
 
-CancelsAnswers::CancelsAnswers(const std::atomic<bool>* flag) noexcept : before_(std::exchange(cancels, flag)) {}
+CancelsAnswers::CancelsAnswers(const std::atomic<bool>* flag) noexcept
+    : before_(std::exchange(cancels, flag)), cancelled_before_(std::exchange(cancelled_before, false)) {}
 
 CancelsAnswers::~CancelsAnswers() {
   cancels = before_;
+  cancelled_before = cancelled_before_;
 }
 
 const std::atomic<bool>* CancelsAnswers::flag() noexcept {

@@ -64,6 +64,7 @@ class CancelsAnswers {
 
  private:
   const std::atomic<bool>* before_;
+  bool cancelled_before_;
 };
 
 // What `question` returns. It must own all that it uses.

@@ -90,6 +90,21 @@ TEST(FileSystemAnswers, EndAtOnceWhereTheFlagIsSet) {
   EXPECT_EQ(asked.error().code, ErrorCode::Cancelled);
 }
 
+// A silent disk takes the grace from what is asked about the same thing, not from the next.
+TEST(FileSystemAnswers, HaveTheirGraceAnewUnderAnotherFlag) {
+  FileSystemAnswers answers(kLong);
+  const std::atomic<bool> stop = true;
+  const CancelsAnswers cancels(stop);
+  Stall stall;
+  EXPECT_FALSE(answers.ask("/silent", stall.question()));
+  EXPECT_FALSE(answers.ask("/a", [] {}));
+  {
+    const CancelsAnswers next(stop);
+    EXPECT_TRUE(answers.ask("/b", [] {}));
+  }
+  EXPECT_FALSE(answers.ask("/c", [] {}));
+}
+
 TEST(FileSystemAnswers, AreNotEndedByAnotherThreadsFlag) {
   FileSystemAnswers answers(kLong);
   const std::atomic<bool> stop = true;
