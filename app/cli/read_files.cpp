@@ -112,11 +112,17 @@ std::vector<std::string> namesIn(const std::string& line, ListKind kind) {
 
 void addFiles(const std::string& address, int depth, std::vector<std::string>& files);
 
+// A report or a recording may lie among the films. Of the JSON files, `addBeside` knows the one that is read.
+bool mayBeOutput(const std::string& name) {
+  const std::string ending = endingOf(name);
+  return ending == "json" || ending == "csv";
+}
+
 // A folder of pictures, and its folders of colour and depth.
 void addFolder(const fs::path& folder, int depth, std::vector<std::string>& files) {
   for (const auto& [name, is] : entriesOf(folder)) {
     if (files.size() >= kMostFiles) return;
-    files.push_back(folder / name);
+    if (!mayBeOutput(name)) files.push_back(folder / name);
     if (is == FolderEntry::Kind::Folder && depth == 0) addFolder(folder / name, 1, files);
   }
 }

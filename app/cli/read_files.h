@@ -16,7 +16,8 @@ namespace relievo {
 // The existing files that opening `address` reads: the file itself (also as a `file:` address), the pictures of a
 // numbered sequence (`%04d`) or of a folder, and everything that a list names, nested lists included: playlists, HLS,
 // FFmpeg's concat (known by its beginning, under any name) and DASH (also all files of its folder). With a film, its
-// subtitles and the camera's file beside it, but not its depth, which may be another file. Empty if it is not a file.
+// subtitles and the camera's file beside it, but not its depth, which may be another file. Of a folder's .json and
+// .csv, only the camera's file: others may be reports. Empty if it is not a file.
 // Bounded: four levels of lists of up to 256 MiB, 200,000 files.
 [[nodiscard]] std::vector<std::string> filesReadBy(const std::string& address);
 

@@ -60,6 +60,11 @@ TEST_F(OutputGuard, KnowsThePicturesOfAFolder) {
   for (const std::string& read : {color, depth, list}) EXPECT_TRUE(refused({read}, {folder_ / "tum"})) << read;
   EXPECT_TRUE(refused({color}, {folder_ / "tum/rgb/*.png"}));
   EXPECT_FALSE(refused({folder_ / "tum/new.mkv"}, {folder_ / "tum"}));
+  EXPECT_FALSE(refused({file("tum/run.json")}, {folder_ / "tum"})) << "a report of the run before";
+  EXPECT_FALSE(refused({file("tum/hand.csv")}, {folder_ / "tum"}));
+  const std::string camera = file("bop/scene_camera.json", R"({"0": {"depth_scale": 0.1}})");
+  file("bop/rgb/000000.png"), file("bop/depth/000000.png");
+  EXPECT_TRUE(refused({camera}, {folder_ / "bop"}));
 }
 
 TEST_F(OutputGuard, KnowsWhatAListNamesAndListsInLists) {
