@@ -47,7 +47,7 @@ const AVCodec* decoderOf(AVCodecID id, bool alpha) noexcept {
   return with_alpha != nullptr ? with_alpha : avcodec_find_decoder(id);
 }
 
-class FfmpegDecoder final : public VideoDecoder {
+class FfmpegDecoder final : public VideoDecoder, private BlockUser {
  public:
   FfmpegDecoder() noexcept { silenceLibrary(); }
 

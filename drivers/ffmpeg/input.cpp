@@ -87,6 +87,7 @@ void FormatCloser::operator()(AVFormatContext* context) const noexcept {
   AVIOContext* const file = isOpenedHere(context->pb) ? context->pb : nullptr;
   avformat_close_input(&context);
   closeOpenedHere(file);
+  user.reset();
 }
 
 Result<Input::Opened> Input::open(const std::string& url, Duration parts_from) {

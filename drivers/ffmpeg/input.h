@@ -8,6 +8,7 @@
 
 #include "drivers/ffmpeg/address.h"
 #include "drivers/ffmpeg/file_times.h"
+#include "drivers/ffmpeg/library.h"
 #include "drivers/ffmpeg/watch.h"
 #include "platform/error.h"
 #include "platform/unique_fd.h"
@@ -21,7 +22,8 @@ namespace relievo::ffmpeg {
 class Input;
 
 struct FormatCloser {
-  std::shared_ptr<Input> input;  // of the container, which outlives it
+  std::shared_ptr<Input> input;             // of the container, which outlives it
+  mutable std::unique_ptr<BlockUser> user;  // once it is open
   void operator()(AVFormatContext* context) const noexcept;
 };
 using FormatPtr = std::unique_ptr<AVFormatContext, FormatCloser>;

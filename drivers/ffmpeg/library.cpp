@@ -22,11 +22,24 @@ namespace {
 
 std::mutex blocks;                                         // guards what follows
 std::size_t usual_most = std::numeric_limits<int>::max();  // FFmpeg's own
-int refusals = 0;
+int refusals = 0, users = 0;
+bool small = false;  // the bound that is set
+
+// An encoder may have ended the usual bound.
+bool isUsualBoundEnded() noexcept {
+  void* const block = av_malloc(usual_most + 1);
+  const bool ended = block != nullptr;
+  av_free(block);
+  return ended;
+}
 
 void boundBlocks() noexcept {
-  constexpr std::size_t kSmall = 1'000'000;
-  av_max_alloc(refusals > 0 ? kSmall : usual_most);
+  constexpr std::size_t kSmall = 1'000'000, kFfmpegs = std::numeric_limits<int>::max();
+  const bool now = refusals > 0 && users == 0;
+  if (now == small) return;
+  if (now && usual_most < kFfmpegs && isUsualBoundEnded()) usual_most = kFfmpegs;
+  small = now;
+  av_max_alloc(small ? kSmall : usual_most);
 }
 
 }  // namespace
@@ -34,7 +47,7 @@ void boundBlocks() noexcept {
 void boundFfmpegBlocks() noexcept {
   const std::scoped_lock lock(blocks);
   usual_most = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
-  boundBlocks();
+  if (!small) av_max_alloc(usual_most);
 }
 
 }  // namespace relievo
@@ -44,6 +57,18 @@ namespace relievo::ffmpeg {
 void refuseLargeBlocks(bool refused) noexcept {
   const std::scoped_lock lock(blocks);
   refusals += refused ? 1 : -1;
+  boundBlocks();
+}
+
+BlockUser::BlockUser() noexcept {
+  const std::scoped_lock lock(blocks);
+  ++users;
+  boundBlocks();
+}
+
+BlockUser::~BlockUser() {
+  const std::scoped_lock lock(blocks);
+  --users;
   boundBlocks();
 }
 

@@ -58,8 +58,18 @@ template <class T, class Deleter>
 // Stops FFmpeg from printing to stderr, since the program prints its own messages.
 void silenceLibrary() noexcept;
 
-// While it is refused more often than allowed again, FFmpeg gets no block over 1 MB in the whole process. Any thread.
+// While it is refused more often than allowed again, and nobody uses them, FFmpeg gets no block over 1 MB in the whole
+// process. Any thread.
 void refuseLargeBlocks(bool refused) noexcept;
+
+// Of a source that is open, or a decoder: it needs large blocks. Any thread.
+class BlockUser {
+ public:
+  BlockUser() noexcept;
+  ~BlockUser();
+  BlockUser(const BlockUser&) = delete;
+  BlockUser& operator=(const BlockUser&) = delete;
+};
 
 [[nodiscard]] Duration durationFrom(std::int64_t ticks, AVRational time_base) noexcept;
 

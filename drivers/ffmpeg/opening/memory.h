@@ -20,16 +20,22 @@ class OpeningMemory {
  public:
   OpeningMemory();
 
-  // Whether the process has grown by more than that since the construction. From then on FFmpeg gets no large block,
-  // until `end`, for whatever it is: it fails, which nothing else makes it do in time. Not after `end`.
+  // Call on the thread that opens it, before it does.
+  void begin();
+  // Whether the process has grown by more than that since the construction, without what it shares or has mapped from
+  // files, and that thread has taken at least half of it. From then on FFmpeg gets no large block, until `end`: it
+  // fails, which nothing else makes it do in time. While another source is open, or a decoder, they get theirs, and it
+  // goes on. Not after `end`, nor where the kernel gives whole huge pages unasked: they are not told by thread.
   [[nodiscard]] bool exceeded();
-  // The opening is over. Returns whether it was exceeded.
+  // The opening is over, or left behind. Returns whether it was exceeded.
   bool end();
 
  private:
   const std::size_t before_;
   std::mutex mutex_;  // guards what follows
   bool exceeded_ = false, ended_ = false;
+  int thread_ = 0;  // 0: not begun
+  std::size_t taken_before_ = 0;
 };
 
 }  // namespace relievo::ffmpeg

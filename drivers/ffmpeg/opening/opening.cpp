@@ -37,6 +37,7 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
   const auto memory = std::make_shared<OpeningMemory>();
   const auto work = [input, url, parts_from, opened, memory] {
     const CancelsAnswers cancels(input->watch().cancelFlag());
+    memory->begin();
     *opened = openKept(input, url, parts_from);
     if (memory->end()) *opened = std::unexpected(kTooMuchMemory);
   };
@@ -46,7 +47,7 @@ Result<Input::Opened> openApart(const std::shared_ptr<Input>& input, const std::
     return watch.givesUp();
   });
   if (!ended) return std::unexpected(ended.error());
-  if (!*ended && memory->exceeded()) return std::unexpected(kTooMuchMemory);
+  if (!*ended && memory->end()) return std::unexpected(kTooMuchMemory);
   if (*ended) return std::move(*opened);
   const bool interrupted = input->watch().cancelled();
   input->watch().cancel();
@@ -65,6 +66,7 @@ Result<Input::Opened> Opener::open(const std::string& url, Duration parts_from, 
     opened = fail(ErrorCode::Unsupported, kOtherTracks);
   }
   if (opened) {
+    opened->container.get_deleter().user = std::make_unique<BlockUser>();
     input_ = input;
     return opened;
   }
