@@ -149,17 +149,19 @@ void makeRelative(DepthReading& read) {
 
 // Numbers are what their name says, else what is usual in their files: in PFM disparities, unless the view shows that
 // they are none. Numbers that begin at 0, or are a network's, are relative disparities if that makes the view nearer
-// below, and doubted as distances.
-DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& count,
+// below, and doubted as distances. A sensor's 65535 is none of them.
+DepthReading readNumbers(const DepthClues& clues, const Frame& look, const CodeCount& all,
                          const CalibrationLayers& layers) {
+  const auto full = fullCode(look, all);
+  const CodeCount& count = full ? all.without(CodeSet(*full)) : all;
   const auto named = namesDisparity(clues.path);
   const bool doubtful_pfm = clues.codec == "pfm" && !named && !mayBeMetres(look, count);
   const bool usual = named.value_or(doubtful_pfm && !looksLikeDistance(look, count));
   const bool open = !usual && !definesCodes(layers);
-  const bool network = open && isOfNetwork(clues, count);
-  const bool seen = (open && isOfVideoDepthAnything(clues, look, count)) ||
+  const bool network = open && !full && isOfNetwork(clues, count);
+  const bool seen = (network && isOfVideoDepthAnything(clues, look, count)) ||
                     (!usual && (areRelative(count) || network) && looksLikeDisparity(look, count));
-  DepthReading read = readFloats(look, count, usual || seen, layers);
+  DepthReading read = readFloats(look, all, usual || seen, layers);
   if (seen && network) makeRelative(read);
   read.unsure = read.unsure || seen || (doubtful_pfm && !looksLikeDisparity(look, count)) || (network && !named) ||
                 (!usual && areRelative(count) && !areFromAfar(look, count));

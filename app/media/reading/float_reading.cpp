@@ -150,9 +150,12 @@ double full(const Frame& depth, std::uint32_t code) {
   return std::abs(depth.value_per_code) * code;
 }
 
+// A sensor's 65535 that `count` leaves out is still in the picture.
 double nearerBelowAsDistances(const Frame& depth, const CodeCount& count) {
   const auto [low, high] = count.reach(kOutliers, 1, kTop);
   DepthCalibration distances{.polarity = DepthPolarity::NearIsLow, .bits = 16, .invalid = 0};
+  if (const auto full = fullCode(depth, CodeCount(depth)); full && count.of(*full) == 0)
+    distances.invalid = CodeSet::parse(print("0+%u", *full)).value_or(CodeSet(0));
   distances.codes = CodeSet::Range{low, std::max(high, low + 1)};
   return nearerBelow(depth, distances);
 }

@@ -184,6 +184,29 @@ TEST(SensorRange, TheHighestCodeIsAHoleInMetresToo) {
   EXPECT_THAT(meaning(13107, 0.005).reading.doubts, Not(Contains(HasSubstr("taken for background"))));
 }
 
+// A gripper below, too near to be measured: 65.535 is none of the numbers that tell distances from disparities.
+TEST(SensorRange, AHoleBelowDoesNotMakeDistancesDisparities) {
+  const auto meaning = [](const char* codec, const auto& metres) {
+    Frame frame = makeGrayFrame(kCols, 100, 16, {}, [=](int, int r) {
+      return r < 70 ? static_cast<std::uint32_t>(std::lround(metres(r) / 0.005)) : 13107u;
+    });
+    frame.value_per_code = 0.005;
+    return readMeaning(DepthClues{.codec = codec, .path = "frame." + std::string(codec)}, nullptr, frame).value();
+  };
+  const auto floor = [](int r) { return 9 - 8.2 * r / 69; };
+  // A window behind a desk, a hand before it: without the hole the view is nearest below.
+  const auto room = [](int r) { return r < 33 ? 3.0 : r < 66 ? 9.0 : 0.11; };
+  for (const char* const codec : {"npy", "pfm"}) {
+    for (const DepthMeaning& read : {meaning(codec, floor), meaning(codec, room)}) {
+      const DepthCalibration& distances = read.calibration.calibration;
+      EXPECT_EQ(distances.unit_mm, 5.0) << codec;
+      EXPECT_EQ(distances.polarity, DepthPolarity::NearIsLow) << codec;
+      EXPECT_EQ(distances.invalid, CodeSet::parse("0+13107").value()) << codec;
+      EXPECT_LT(distances.far_mm, 10'000) << codec;
+    }
+  }
+}
+
 // Brightness of 0 to 65535 in floats.
 TEST(SensorRange, TheHighestNumberOfAnEvenRangeIsNoHole) {
   Frame frame = makeGrayFrame(kCols, kRows, 16, {}, [](int c, int r) { return 1u + 2 * (c + 160 * r) % 13107; });
