@@ -9,6 +9,7 @@
 #include "app/media/reading/code_count.h"
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/depth_meaning.h"
+#include "app/media/reading/near_end.h"
 #include "app/media/tracks/track_reader.h"
 #include "app/scene/film_box.h"
 #include "app/scene/height_field.h"
@@ -61,6 +62,7 @@ Outcome<void> DepthFilm::open() {
         std::find_if(streams.begin(), streams.end(), [](const StreamInfo& s) { return s.kind == StreamKind::Video; });
     if (video == streams.end()) return failOn(source.url, {ErrorCode::NotFound, 0, "no video in this source"});
     clues.codec = video->codec;
+    clues.single = isStill(*video);
     clues.tags = tracks_->single.source().tags();
     clues.tags.insert(video->tags.begin(), video->tags.end());
     const auto selected = tracks_->single.select(*video);

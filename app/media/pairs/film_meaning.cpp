@@ -10,6 +10,7 @@
 #include "app/media/pairs/depth_reach.h"
 #include "app/media/reading/color_map_fit.h"
 #include "app/media/reading/depth_doubts.h"
+#include "app/media/reading/near_end.h"
 #include "app/media/reading/stereo/stereo_pair.h"
 #include "app/media/registration/own_registration.h"
 #include "hal/media/media_names.h"
@@ -183,6 +184,7 @@ Result<void> FilmMeaning::describe(const Frame& first, const Frame& look, const 
   clues_.packing = info.packing;
   clues_.live = !isFile(film_.depthUrl());
   clues_.codec = stream.codec;
+  clues_.single = isStill(stream);
   takeTags(stream);
   takeExtras(stream);
   const auto tagged = materialFromTags(clues_.tags);

@@ -28,6 +28,7 @@ struct DepthClues {
   CalibrationSettings pictures;       // what the pictures have shown so far
   std::vector<std::string> why;       // likewise, in words
   bool live = false;                  // a camera or a network: what comes next may be nearer than the first picture
+  bool single = false;                // one picture, or photos of different things: no film (isStill)
   std::vector<CalibrationPart> more;  // registration, rotation
 };
 

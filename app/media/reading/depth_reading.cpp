@@ -109,6 +109,7 @@ DepthReading readNetwork(const CodeCount& count) {
   const double high = std::ceil(kFarther * std::max(reach.high, reach.low + 1));
   DepthReading reading;
   reading.settings = {{"codes", print("%u-%.0f", reach.low, high)}};
+  reading.near_high = true;
   reading.why = print("codes of %u to %u: a network's numbers, too near for distances in mm", reach.low, reach.high);
   reading.offer = "if they are distances in mm: --as mm";
   return reading;

@@ -22,6 +22,7 @@ struct DepthReading {
   bool unsure = false;              // `offer` is as likely
   std::string doubt;                // one line: what is left out of the pictures' range; empty if nothing is
   bool by_view = false;             // the near end is the one that makes the view nearer below
+  bool near_high = false;           // high is near whatever the view shows: disparities are never the other way round
   std::string black;                // of a film of brightness: the codes that are holes if near is dark; empty if none
 };
 

@@ -39,10 +39,11 @@ const char* otherEndOf(const DepthCalibration& calibration) noexcept {
 }
 
 // Pictures that programs write one by one; of those that are dark where they are near, most are renderings and photos
-// with a lens blur. A film's gray is near where it is bright unless somebody says otherwise.
-bool isPicture(std::string_view codec) noexcept {
+// with a lens blur. A film's gray is near where it is bright unless somebody says otherwise, also if it is coded as
+// pictures are.
+bool isPicture(const DepthClues& clues) noexcept {
   constexpr std::array<std::string_view, 6> kPictures{"png", "mjpeg", "webp", "bmp", "tiff", "jpeg2000"};
-  return std::ranges::find(kPictures, codec) != kPictures.end();
+  return clues.single && !clues.live && std::ranges::find(kPictures, clues.codec) != kPictures.end();
 }
 
 // How much nearer the view is below than above. Black that may be a hole says nothing of that.
@@ -53,10 +54,17 @@ double nearerBelow(const Frame& look, DepthCalibration calibration, const DepthR
 
 }  // namespace
 
+bool isStill(const StreamInfo& stream) {
+  constexpr int kLeastSeconds = 2;
+  if (!stream.counted) return false;
+  const Ratio rate = stream.average_rate;
+  return rate.known() ? rate.num <= rate.den / kLeastSeconds : stream.duration == Duration(0);
+}
+
 Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,
                                         DepthReading& read) {
   auto choice = choose(clues, look, layers);
-  const bool either = isColorMap(clues.code) || (clues.code == DepthCode::Luma && isPicture(clues.codec));
+  const bool either = isColorMap(clues.code) || (clues.code == DepthCode::Luma && isPicture(clues) && !read.near_high);
   const bool open = choice && either && nearEndOf(*choice).origin == CalibrationOrigin::Default;
   if (!open || isLevel(look, choice->calibration)) return choice;
   if (nearerBelow(look, choice->calibration, read) >= -kClearlyNearer) return choice;

@@ -96,22 +96,26 @@ TEST(ShadeReading, OfAPicturesGrayTheEndIsNearThatMakesTheViewNearerBelow) {
   const auto darker_below = [](int, int r) { return static_cast<std::uint32_t>(220 - 2 * r); };
   const auto brighter_below = [](int, int r) { return static_cast<std::uint32_t>(30 + 2 * r); };
   for (const char* const codec : {"png", "mjpeg", "webp"}) {
-    const DepthMeaning dark = meaningOf(darker_below, ColorModel::Gray, {.codec = codec});
+    const DepthMeaning dark = meaningOf(darker_below, ColorModel::Gray, {.codec = codec, .single = true});
     EXPECT_EQ(dark.calibration.calibration.polarity, DepthPolarity::NearIsLow) << codec;
     EXPECT_THAT(dark.reading.doubts,
                 ElementsAre(AllOf(HasSubstr("dark is taken, which makes"), HasSubstr("polarity=near-high"))));
-    const DepthMeaning bright = meaningOf(brighter_below, ColorModel::Gray, {.codec = codec});
+    const DepthMeaning bright = meaningOf(brighter_below, ColorModel::Gray, {.codec = codec, .single = true});
     EXPECT_EQ(bright.calibration.calibration.polarity, DepthPolarity::NearIsHigh) << codec;
-    DepthClues said{.codec = codec};
+    DepthClues said{.codec = codec, .single = true};
     said.command_line = {{"polarity", "near-high"}};
     EXPECT_EQ(meaningOf(darker_below, ColorModel::Gray, said).calibration.calibration.polarity,
               DepthPolarity::NearIsHigh);
   }
-  const DepthMeaning film = meaningOf(darker_below, ColorModel::Gray, {.codec = "h264"});
-  EXPECT_EQ(film.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  for (const DepthClues& film : {DepthClues{.codec = "h264", .single = true}, DepthClues{.codec = "png"},
+                                 DepthClues{.codec = "mjpeg", .live = true, .single = true}}) {
+    EXPECT_EQ(meaningOf(darker_below, ColorModel::Gray, film).calibration.calibration.polarity,
+              DepthPolarity::NearIsHigh)
+        << film.codec;
+  }
   // A JPEG's black apart from the other shades is no wall in front of them.
   const auto with_black = [&](int c, int r) { return c < 8 ? 0 : darker_below(c, r); };
-  const DepthMeaning black = meaningOf(with_black, ColorModel::Yuv, {.codec = "mjpeg"});
+  const DepthMeaning black = meaningOf(with_black, ColorModel::Yuv, {.codec = "mjpeg", .single = true});
   EXPECT_EQ(black.calibration.calibration.polarity, DepthPolarity::NearIsLow);
   EXPECT_TRUE(black.calibration.calibration.invalid.contains(0));
   EXPECT_THAT(black.reading.doubts, ElementsAre(HasSubstr("black is a hole now")));
@@ -151,6 +155,17 @@ TEST(ShadeReading, SixteenBitsFromZeroOnAreNotMillimetres) {
     EXPECT_EQ(meaning.calibration.calibration.unit_mm, 1) << high;
     EXPECT_THAT(meaning.reading.doubts, ElementsAre(AllOf(HasSubstr("nearer above"), HasSubstr("--as heights"))));
   }
+}
+
+// Its high codes are near even in a picture by itself whose view is nearer above then.
+TEST(ShadeReading, ANetworksNumbersAreNearWhereTheyAreHigh) {
+  const Frame frame = makeGrayFrame(64, 96, 16, {}, [](int c, int r) { return 286 - 3 * r + c % 2; });
+  const DepthClues clues{.codec = "png", .single = true};
+  ASSERT_EQ(kindOf(clues, frame), nullptr);
+  const DepthMeaning network = readMeaning(clues, nullptr, frame).value();
+  EXPECT_THAT(network.reading.why, ElementsAre(HasSubstr("a network's numbers")));
+  EXPECT_EQ(network.calibration.calibration.polarity, DepthPolarity::NearIsHigh);
+  EXPECT_THAT(network.reading.doubts, ElementsAre(AllOf(HasSubstr("although"), HasSubstr("near-low"))));
 }
 
 // A camera for close views (70 to 190 mm), or a room in centimetres: with holes, or nearer below as distances.
