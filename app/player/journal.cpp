@@ -18,7 +18,11 @@ void Journal::stateChanged(PlayerState state) {
   if (report_.states.size() < kMostStates) report_.states.push_back(state);
 }
 
-void Journal::filmAsked(const std::string& url) {
+void Journal::filmAsked(const std::string& url, const std::string& depth_url) {
+  for (const std::string& address : {url, depth_url}) {
+    const bool is_file = address.find("://") == address.npos || address.starts_with("file:");
+    if (is_file && !address.empty()) report_.opened.insert(address);
+  }
   film_kept_ = report_.films.size() < kMostFilms;
   if (film_kept_) report_.films.push_back(url);
 }

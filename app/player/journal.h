@@ -27,7 +27,8 @@ class Journal {
   [[nodiscard]] double sinceBegin(MonotonicTime time) const noexcept { return toSeconds(time - began_); }
 
   void stateChanged(PlayerState state);
-  void filmAsked(const std::string& url);
+  // `depth_url`: empty if it is not given with the film.
+  void filmAsked(const std::string& url, const std::string& depth_url = "");
   void filmIsList();  // the last source is a list, not a film
   // The film that is played, with its chosen tracks.
   void filmIs(const FilmInfo& info) { report_.film = info; }

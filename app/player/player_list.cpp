@@ -51,7 +51,7 @@ void Player::openFilm(std::size_t film, Programme::Way way, MonotonicTime now) {
   leaveFilm(now);
   programme_.choose(film, way);
   const PlaylistEntry& entry = programme_.film();
-  journal_.filmAsked(entry.url);
+  journal_.filmAsked(entry.url, entry.depth_url);
   if (entry.refused) return;  // followOpening fails it like a film that cannot be opened
   SourceOptions source = config_.source;
   source.url = entry.url;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct SecondFinger {
 struct PlayReport {
   std::string source, depth_source;
   std::vector<std::string> films;  // opened, in order; the first 1000
+  std::set<std::string> opened;    // all files, with lists and depth, which no output may replace; not in the JSON
   FilmInfo film;                   // the last one
   PairCounters pairs;
   DisplayVolume volume;

@@ -111,8 +111,25 @@ TEST_F(PlayerService, AnOutputOntoAFilmThatAProgramOpensLeavesTheFilm) {
   EXPECT_EQ(test::contentOf(at("run.json")), film);
   EXPECT_EQ(test::contentOf(at("hand.csv")), next);
   const std::string said = test::contentOf(at("said.txt"));
-  EXPECT_THAT(said, HasSubstr("run.json: is also an input and would be overwritten"));
-  EXPECT_THAT(said, HasSubstr("hand.csv: is also an input and would be overwritten"));
+  EXPECT_THAT(said, HasSubstr("run-2.json was written in place of " + at("run.json") + ": that is also a film"));
+  EXPECT_THAT(said, HasSubstr("hand-2.csv was written in place of " + at("hand.csv") + ": that is also a film"));
+  EXPECT_THAT(test::contentOf(at("run-2.json")), HasSubstr("\"states\""));
+  EXPECT_THAT(test::contentOf(at("hand-2.csv")), HasSubstr("hip_x_mm"));
+}
+
+// Those of the run before lie there already.
+TEST_F(PlayerService, AReportAmongTheFilmsOfAFolderThatIsOpenedIsReplaced) {
+  fs::create_directory(at("rec"));
+  fs::rename(at("film.mkv"), at("rec/film.mkv"));
+  for (const char* name : {"rec/run.json", "rec/hand.csv"}) std::ofstream(at(name)) << "the run before";
+  test::Process player(words({"--report", at("rec/run.json"), "--record", at("rec/hand.csv")}), at("said.txt"));
+  ControlClient program(at("control"));
+  EXPECT_EQ(program.ask("open " + at("rec"))["ok"], true);
+  EXPECT_TRUE(program.untilState("playing"));
+  program.say("quit");
+  EXPECT_EQ(player.wait(), 0) << test::contentOf(at("said.txt"));
+  EXPECT_THAT(test::contentOf(at("rec/run.json")), HasSubstr("\"states\""));
+  EXPECT_THAT(test::contentOf(at("rec/hand.csv")), HasSubstr("hip_x_mm"));
 }
 
 TEST_F(PlayerService, AFaultIsForMocksAlone) {

@@ -2,6 +2,7 @@
 // Checks before the film begins that the outputs can be written.
 #include "app/player/setup/play_files.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
 #include <set>
@@ -9,24 +10,45 @@
 
 #include "app/cli/output_guard.h"
 #include "app/cli/program.h"
+#include "app/cli/read_files.h"
 #include "app/media/folder/film_folder.h"
 #include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
+#include "platform/print.h"
 
 namespace relievo {
 namespace {
 
+constexpr const char* kIsFilm = "that is also a film that was played, and stays as it is; choose another file";
+
 // A film that was opened while the player ran (dropped on its window, named by a program) may be the output. The end
-// does not wait for a film's file system that is silent.
-Outcome<void> keepFilmsApart(const std::string& output, const PlayReport& report) {
+// does not wait for film after film whose file system is silent: then it may be one of them.
+bool mayBeFilm(const std::string& output, const PlayReport& report) {
+  constexpr int kMostSilent = 20, kMostSearched = 1000;  // for what belongs to them
   const std::atomic<bool> at_once = true;
   const CancelsAnswers cancels(at_once);
-  std::set<std::string> films(report.films.begin(), report.films.end());
-  for (const std::string& film : report.films) films.insert(depthBeside(film));
+  const auto there = statusOf(output);
+  if (!there) return there.error().code != ErrorCode::NotFound;
+  std::set<std::string> films = report.opened;
   films.insert(report.depth_source);
-  const auto apart = keepApart({output}, {films.begin(), films.end()});
-  if (!apart && apart.error().error.code == ErrorCode::Cancelled) return {};
-  return apart;
+  int silent = 0, searched = 0;
+  return std::ranges::any_of(films, [&](const std::string& film) {
+    const CancelsAnswers anew(at_once);  // with a grace of its own
+    const auto status = statusOf(localPathIn(film));
+    if (!status && status.error().code == ErrorCode::Cancelled) return ++silent == kMostSilent;
+    if (status && status->st_dev == there->st_dev && status->st_ino == there->st_ino) return true;
+    return ++searched <= kMostSearched && !keepApart({output}, {film, depthBeside(film)});
+  });
+}
+
+// Puts an output in place, beside a file that may be one of the films.
+Outcome<void> putInPlace(AtomicFile& file, const PlayReport& report) {
+  const std::string path = file.path();
+  if (mayBeFilm(path, report)) file.setExisting(Existing::Beside);
+  if (auto done = file.commit(); !done) return failOn(path, done.error());
+  if (file.path() == path) return {};
+  return failOn(print("%s was written in place of %s", file.path().c_str(), path.c_str()),
+                {ErrorCode::InvalidArgument, 0, kIsFilm});
 }
 
 }  // namespace
@@ -92,20 +114,17 @@ Outcome<PlayOutputs> makeOutputs(const PlayOptions& options) {
 int finishFiles(const PlayReport& report, PlayOutputs& outputs) {
   const CancelsAnswers kept(nullptr);  // the signal that has ended the player does not cancel writing its files
   int result = kExitDone;
-  const auto spares = [&](const std::string& output) {
-    const auto apart = keepFilmsApart(output, report);
-    if (!apart) result = tell(apart.error());
-    return apart.has_value();
+  const auto put = [&](AtomicFile& file) {
+    if (auto done = putInPlace(file, report); !done) result = tell(done.error());
   };
   const auto finish = [&](std::optional<Recorder>& recorder, const HapticSummary& haptic) {
-    if (!recorder || haptic.ticks == 0 || !spares(recorder->path())) return;
-    if (auto finished = recorder->finish(); !finished) result = tell({recorder->path(), finished.error()});
+    if (recorder && haptic.ticks > 0) put(recorder->file());
   };
   finish(outputs.recorder, report.haptic);
   if (report.second_finger) finish(outputs.second_recorder, report.second_finger->haptic);
-  if (outputs.report && spares(outputs.report->path())) {
+  if (outputs.report) {
     outputs.report->write(toJson(report));
-    if (auto written = outputs.report->commit(); !written) result = tell({outputs.report->path(), written.error()});
+    put(*outputs.report);
   }
   return result;
 }

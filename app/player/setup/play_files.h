@@ -29,8 +29,8 @@ struct PlayOutputs {
 };
 [[nodiscard]] Outcome<PlayOutputs> makeOutputs(const PlayOptions& options);
 
-// Writes the report and the recordings, and reports failures; one failure does not affect the other files. An output
-// that is a film that was played stays as it is, which is a failure. Returns the exit code.
+// Writes the report and the recordings, and reports failures; one failure does not affect the other files. A film that
+// was played is not replaced: the output is put beside it, which is a failure too. Returns the exit code.
 [[nodiscard]] int finishFiles(const PlayReport& report, PlayOutputs& outputs);
 
 }  // namespace relievo

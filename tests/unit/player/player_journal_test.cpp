@@ -55,6 +55,7 @@ TEST(Journal, AListIsNoFilm) {
   journal.filmIsList();
   journal.filmAsked("a.mkv");
   EXPECT_EQ(journal.written().films, std::vector<std::string>{"a.mkv"});
+  EXPECT_TRUE(journal.written().opened.contains("list.m3u")) << "no output may replace it";
 }
 
 TEST(Journal, OfFilmsThatFollowEachOtherForMonthsTheFirstAreKept) {
@@ -65,6 +66,10 @@ TEST(Journal, OfFilmsThatFollowEachOtherForMonthsTheFirstAreKept) {
   journal.filmAsked("list.m3u");
   journal.filmIsList();
   EXPECT_EQ(journal.written().films.size(), 1000U);
+  journal.filmAsked("b.mkv", "depth.mkv");
+  journal.filmAsked("http://127.0.0.1/c.mkv");
+  EXPECT_EQ(journal.written().opened, (std::set<std::string>{"a.mkv", "b.mkv", "depth.mkv", "list.m3u"}))
+      << "no output may replace one of them";
 }
 
 }  // namespace
