@@ -69,7 +69,7 @@ std::optional<List> piecesOf(const Readable& file, const Mp4Track& track, std::u
   for (std::size_t at = 0; at < rows->size(); at += kRow) {
     const std::uint64_t first = rowNumber(*rows, at), samples = rowNumber(*rows, at + 4);
     const std::uint64_t next = at + kRow < rows->size() ? rowNumber(*rows, at + kRow) : track.chunks + 1;
-    const std::uint64_t chunks = std::min(next > first ? next - first : 0, track.chunks);
+    const std::uint64_t chunks = std::min({next > first ? next - first : 0, track.chunks, 2 * most});
     const std::uint64_t pieces = (samples + track.piece - 1) / track.piece;
     if (pieces > 0) list.add(chunks * pieces, static_cast<double>(samples) / static_cast<double>(pieces), most);
   }
@@ -182,7 +182,7 @@ std::uint64_t numberIn(const Readable& file, const Mp4Box& box, std::uint64_t at
 
 std::optional<std::uint64_t> entriesOf(const Readable& file, const Mp4Track& track, std::uint64_t per_second,
                                        std::uint64_t most, std::uint64_t& budget) {
-  constexpr std::uint64_t kFew = 2;  // edits: the first is mostly empty
+  constexpr std::uint64_t kFew = 2, kMany = 10'000;  // edits: the first is mostly empty; no film has as many
   List list{.entries = track.samples};
   if (track.isInChunks()) {
     auto pieces = piecesOf(file, track, most, budget);
@@ -191,6 +191,7 @@ std::optional<std::uint64_t> entriesOf(const Readable& file, const Mp4Track& tra
   }
   const std::uint64_t all = std::min(list.entries, 2 * most);
   if (track.shows <= kFew || all > most) return all;
+  if (track.shows > kMany) return all * std::min(track.shows - 1, most);
   if (!track.isInChunks()) {
     auto samples = samplesOf(file, track, most, budget);
     if (!samples) return all * std::min(track.shows - 1, most);
