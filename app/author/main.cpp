@@ -22,6 +22,7 @@
 #include "drivers/registry.h"
 #include "hal/media/video_decoder.h"
 #include "platform/clock.h"
+#include "platform/files/answered_place.h"
 #include "platform/files/file_system_answer.h"
 #include "platform/text/number_in.h"
 #include "platform/text/plain_text.h"
@@ -247,7 +248,8 @@ int run(Arguments& a) {
   if (a.crf >= 0) a.output.color_crf = a.output.depth.crf = a.crf;
   if (a.depth_crf >= 0) a.output.depth.crf = a.depth_crf;
   std::vector<std::string> inputs = a.source.named_files;
-  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url, a.depth_from});
+  inputs.insert(inputs.end(), {a.source.url, a.source.depth_url});
+  if (isRegularFile(a.depth_from)) inputs.push_back(a.depth_from);  // a network; no command, whose * is no pattern
   for (const Painting& painting : a.output.paintings) inputs.push_back(painting.path);
   if (a.source.depth_url.empty() && !a.output.from_views) inputs.push_back(depthBeside(a.source.url));
   if (auto apart = keepApart(filesWrittenBy(a.output), inputs); !apart) return tellEnd(apart.error(), a.output.path);

@@ -69,5 +69,14 @@ TEST_F(AuthorFilm, ProgramNeverReplacesWhatItReadsEvenIfForced) {
   EXPECT_FALSE(fs::exists(folder_ / "o.mkv"));
 }
 
+// Of which the last word may have a * or a ? in it.
+TEST_F(AuthorFilm, ProgramTakesNoCommandForAPatternOfFiles) {
+  makeClip(folder_ / "color.mkv", {colorTrack()});
+  std::ofstream(folder_ / "out.mkv") << "the film of the run before";
+  const auto said = run("--color @/color.mkv --depth-from '@/guess --names *.png' -o @/out.mkv --force");
+  EXPECT_EQ(said.exit_code, 1);
+  EXPECT_THAT(said.err, testing::Not(HasSubstr("is also an input")));
+}
+
 }  // namespace
 }  // namespace relievo
