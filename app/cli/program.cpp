@@ -134,6 +134,12 @@ const std::atomic<bool>& stopOnSignals(void (*last)() noexcept) noexcept {
   return stop_wanted;
 }
 
+void endOnSignals() noexcept {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    if (number != SIGHUP || !isIgnored(SIGHUP)) std::signal(number, SIG_DFL);
+  }
+}
+
 int tell(const Failure& failure, int exit_code) {
   const auto& [thing, error] = failure;
   if (error.os_error != 0) {

@@ -31,6 +31,10 @@ inline int tell(const Failure& failure) {
 // SIGHUP that is ignored, as nohup(1) does, stays so. Call once.
 [[nodiscard]] const std::atomic<bool>& stopOnSignals(void (*last)() noexcept = nullptr) noexcept;
 
+// After `stopOnSignals`: SIGINT, SIGTERM and SIGHUP end the program at once again, without `last`. SIGHUP that is
+// ignored stays so.
+void endOnSignals() noexcept;
+
 // Runs the body of a main, which returns the exit code. `name` (a literal) starts each line on stderr. Exceptions (out
 // of memory, out of threads), on other threads too, and a failed write to standard output become ordinary failures; it
 // is no failure that the reader of a pipe leaves early, as `head` does. Writes to closed pipes or beyond the file size

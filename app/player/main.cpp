@@ -2,7 +2,6 @@
 // The player's program: chooses the back ends, plays or probes, and reports errors in one line.
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -132,7 +131,7 @@ int tellViewer(const Failure& failure, bool from_desktop) {
   const int code = tell(failure);
   if (!from_desktop) return code;
   drivers::stopAllMotors();
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
+  endOnSignals();
   std::string words = failure.thing + ": " + failure.error.message;
   if (failure.error.os_error != 0) words += print(" (%s)", std::strerror(failure.error.os_error));
   drivers::tellOnDesktop(words);

@@ -56,6 +56,19 @@ TEST(ProgramDeathTest, AHangUpThatIsIgnoredStaysSo) {
   EXPECT_EXIT(hangUp(SIG_IGN), testing::ExitedWithCode(6), "");
 }
 
+TEST(ProgramDeathTest, SignalsMayEndItAtOnceAgainButNotOneThatIsIgnored) {
+  const auto raise = [](int number, void (*before)(int)) {
+    std::signal(SIGHUP, before);
+    begin();
+    endOnSignals();
+    std::raise(number);
+    std::_Exit(6);
+  };
+  EXPECT_EXIT(raise(SIGTERM, SIG_DFL), testing::KilledBySignal(SIGTERM), "");
+  EXPECT_EXIT(raise(SIGHUP, SIG_DFL), testing::KilledBySignal(SIGHUP), "");
+  EXPECT_EXIT(raise(SIGHUP, SIG_IGN), testing::ExitedWithCode(6), "");
+}
+
 // As with a display that does not answer.
 TEST(ProgramDeathTest, AnEndThatTakesLongIsTold) {
   const auto end = [] {
