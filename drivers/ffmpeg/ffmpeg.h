@@ -43,7 +43,8 @@ namespace relievo {
 [[nodiscard]] std::unique_ptr<VideoDecoder> makeFfmpegDecoder();
 
 // From now on FFmpeg allocates no block that no picture needs, in the whole process: a text or a colour profile in a
-// picture of 300 KB unpacks to 300 MB. The first encoder that is opened ends it (app/coding/video_encoder.h).
+// picture of 300 KB unpacks to 300 MB. The first encoder that is opened ends it (app/coding/video_encoder.h), also for
+// inputs that are still read: what a fragment of a film that comes later lists has then no bound.
 void boundFfmpegBlocks() noexcept;
 
 // Whether it returns both views of a stream with kLayersTag 2 (Frame::right): FFmpeg 7.1 or later; else the first
