@@ -60,7 +60,7 @@ bool hasPassedPictures(const AVFormatContext& context) {
 }
 
 // A list that another list names is no part of the film.
-bool isList(std::string_view url) noexcept {
+bool namesList(std::string_view url) noexcept {
   url = url.substr(0, url.find_first_of("?#"));
   return url.ends_with(".m3u8") || url.ends_with(".m3u");
 }
@@ -199,7 +199,9 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
       log(LogLevel::Warning, "media", "%s: its list %s has no parts and is left out", self.url_.c_str(), url);
     return AVERROR_INVALIDDATA;
   }
-  if (opened >= 0 && self.parts_from_ > Duration(0) && (isList(url) || self.url_ == url)) {
+  const bool early = opened >= 0 && self.url_ != url && self.first_part_.empty();  // lists come before parts
+  const bool is_list = namesList(url) || (early && isList(**file));
+  if (opened >= 0 && self.parts_from_ > Duration(0) && (is_list || self.url_ == url)) {
     opened = self.shorten(context, *file);
     if (file == &context->pb) {  // FFmpeg would take it for its own
       context->flags |= AVFMT_FLAG_CUSTOM_IO;
@@ -207,8 +209,8 @@ int Input::openCounted(AVFormatContext* context, AVIOContext** file, const char*
     }
   }
   if (opened >= 0) {
-    if (self.first_part_.empty() && self.url_ != url && !isList(url)) self.first_part_ = url;
-    self.any_part_ = self.any_part_ || (self.url_ != url && !isList(url));
+    if (early && !is_list) self.first_part_ = url;
+    self.any_part_ = self.any_part_ || (self.url_ != url && !is_list);
     self.in_gap_ = false;
     self.missing_.clear();
   } else if (!self.watch_.cancelled() && self.url_ != url) self.missing_ = url;
@@ -219,6 +221,9 @@ int Input::openAny(AVFormatContext* context, AVIOContext** file, const char* url
   const std::string path = reads_files_ ? localPathOf(url) : "";
   if (path.empty()) {
     if (options != nullptr) askBusyServerAgain(*options);
+    for (const auto& [name, value] : of_lists_) {
+      if (options != nullptr) av_dict_set(options, name.c_str(), value.c_str(), AV_DICT_DONT_OVERWRITE);
+    }
     return open_file_(context, file, url, flags, options);
   }
   const auto opened = openLocalFile(path, watch_);
@@ -246,8 +251,12 @@ void Input::tellLost(const std::string& part) const {
         lost_, part.c_str());
 }
 
+// FFmpeg takes from its own context where the list is, and what the next requests need.
 int Input::shorten(AVFormatContext* context, AVIOContext*& list) {
-  AVIOContext* const later = openLaterParts(*list, parts_from_);
+  for (const char* const name : {"cookies", "rw_timeout", "user_agent"}) {
+    if (auto value = isOpenedHere(list) ? "" : optionOf(*list, name); !value.empty()) of_lists_[name] = value;
+  }
+  AVIOContext* const later = openLaterParts(*list, parts_from_, isOpenedHere(list) ? "" : optionOf(*list, "location"));
   static_cast<void>(closeAny(context, std::exchange(list, later)));
   return later == nullptr ? AVERROR(ENOMEM) : 0;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -82,8 +83,9 @@ class Input {
   bool reads_files_ = false;
   int opens_ = 0;
   bool opened_ = false;
-  std::string first_part_;  // of a list
-  std::string missing_;     // the part that could not be opened just now
+  std::map<std::string, std::string> of_lists_;  // options for what lists name
+  std::string first_part_;                       // of a list
+  std::string missing_;                          // the part that could not be opened just now
   std::string first_lost_;
   bool in_gap_ = false;  // until a part can be opened
   unsigned lost_ = 0;    // parts that could not be opened

@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "drivers/ffmpeg/opening/lists.h"
+
 extern "C" {
 #include <libavutil/error.h>
 #include <libavutil/mem.h>
@@ -19,10 +21,11 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{16} << 20;
 constexpr int kBlock = 4096;
-constexpr std::string_view kLength = "#EXTINF:", kNumber = "#EXT-X-MEDIA-SEQUENCE:";
+constexpr std::string_view kLength = "#EXTINF:", kNumber = "#EXT-X-MEDIA-SEQUENCE:", kRange = "#EXT-X-BYTERANGE:",
+                           kJump = "#EXT-X-DISCONTINUITY";
 
 // Of one part, as a byte range: those that hold for all later parts are others.
-constexpr std::array<std::string_view, 4> kOfOnePart{"#EXT-X-BYTERANGE:", "#EXT-X-PROGRAM-DATE-TIME:", "#EXT-X-GAP",
+constexpr std::array<std::string_view, 4> kOfOnePart{kRange, "#EXT-X-PROGRAM-DATE-TIME:", "#EXT-X-GAP",
                                                      "#EXT-X-BITRATE:"};
 
 bool isOfOnePart(std::string_view line) noexcept {
@@ -32,12 +35,17 @@ bool isOfOnePart(std::string_view line) noexcept {
 // Whether parts may be taken away from the front.
 bool mayBeShortened(std::string_view list) noexcept {
   const auto has = [list](std::string_view tag) { return list.find(tag) != std::string_view::npos; };
-  if (!has(kLength) || !has("#EXT-X-ENDLIST") || has("#EXT-X-DISCONTINUITY")) return false;
-  for (std::size_t at = list.find(kOfOnePart[0]); at != std::string_view::npos; at = list.find(kOfOnePart[0], at + 1)) {
-    const std::string_view line = list.substr(at, list.find('\n', at) - at);
-    if (line.find('@') == std::string_view::npos) return false;  // it begins where the part before it ends
-  }
-  return true;
+  return has(kLength) && has("#EXT-X-ENDLIST");
+}
+
+// With the place of its first byte, which is else that behind the range before, `next`.
+std::string withPlace(std::string range, std::uint64_t& next) {
+  char* end = nullptr;
+  const std::uint64_t bytes = std::strtoull(range.c_str() + kRange.size(), &end, 10);
+  if (*end == '@') next = std::strtoull(end + 1, nullptr, 10);
+  else range.insert(static_cast<std::size_t>(end - range.c_str()), "@" + std::to_string(next));
+  next += bytes;
+  return range;
 }
 
 struct Text {
@@ -61,8 +69,15 @@ std::string laterParts(std::string_view list, Duration from) {
   std::string whole, part, last;  // what holds for the film, and for the next part; the last part left out
   std::size_t last_place = 0;
   Duration end{0};
-  std::uint64_t first = 0, left_out = 0;
+  std::uint64_t first = 0, left_out = 0, next_byte = 0;
   bool begun = false;
+  const auto begin = [&] {
+    if (!begun && left_out > 0) {
+      whole.insert(last_place, last);
+      --left_out;
+    }
+    begun = true;
+  };
   while (!list.empty()) {
     const std::size_t length = std::min(list.find('\n'), list.size() - 1) + 1;
     std::string line(list.substr(0, length));
@@ -71,6 +86,8 @@ std::string laterParts(std::string_view list, Duration from) {
       first = std::strtoull(line.c_str() + kNumber.size(), nullptr, 10);
       continue;
     }
+    if (line.starts_with(kRange)) line = withPlace(std::move(line), next_byte);
+    if (line.starts_with(kJump) && !line.starts_with("#EXT-X-DISCONTINUITY-") && left_out > 0) begin();
     if (line.starts_with(kLength)) end += fromSeconds(std::strtod(line.c_str() + kLength.size(), nullptr));
     const bool is_part = line[0] != '#' && line.find_first_not_of(" \t\r\n") != std::string::npos;
     if (!is_part) {
@@ -87,15 +104,12 @@ std::string laterParts(std::string_view list, Duration from) {
     }
     part.clear();
   }
-  if (!begun && left_out > 0) {
-    --left_out;
-    whole.insert(last_place, last);
-  }
+  begin();
   const std::size_t second = whole.find('\n') + 1;  // the first line says that it is a list
   return whole.insert(second, std::string(kNumber) + std::to_string(first + left_out) + "\n");
 }
 
-AVIOContext* openLaterParts(AVIOContext& list, Duration from) {
+AVIOContext* openLaterParts(AVIOContext& list, Duration from, const std::string& own) {
   auto text = std::make_unique<Text>();
   std::array<unsigned char, kBlock> block{};
   int got = 0;
@@ -103,6 +117,7 @@ AVIOContext* openLaterParts(AVIOContext& list, Duration from) {
     text->bytes.append(reinterpret_cast<const char*>(block.data()), static_cast<std::size_t>(got));
   }
   text->bytes = laterParts(text->bytes, from);
+  if (!own.empty()) text->bytes = withWholeAddresses(text->bytes, own);
   auto* const buffer = static_cast<unsigned char*>(av_malloc(kBlock));
   if (buffer == nullptr) return nullptr;
   AVIOContext* const file = avio_alloc_context(buffer, kBlock, 0, text.get(), readSome, nullptr, nullptr);

@@ -14,13 +14,14 @@ extern "C" {
 
 namespace relievo::ffmpeg {
 
-// A list of parts without those that end at or before `from` of its time, but for the last. A list of lists, one that
-// is not ended, or whose times begin again, stays as it is.
+// A list of parts without those that end at or before `from` of its time, but for the last, and for all from the one
+// before the first discontinuity on: their times may begin again. A list of lists, or one that is not ended, stays as
+// it is.
 [[nodiscard]] std::string laterParts(std::string_view list, Duration from);
 
 // Replaces an I/O context by one that reads the same list without its parts before `from`; the caller closes the first.
-// Null if out of memory.
-[[nodiscard]] AVIOContext* openLaterParts(AVIOContext& list, Duration from);
+// `own`: the list's address, if that is not the one that FFmpeg asks for. Null if out of memory.
+[[nodiscard]] AVIOContext* openLaterParts(AVIOContext& list, Duration from, const std::string& own = {});
 [[nodiscard]] bool isLaterParts(const AVIOContext* file) noexcept;
 void closeLaterParts(AVIOContext* file) noexcept;
 

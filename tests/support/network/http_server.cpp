@@ -70,11 +70,19 @@ void HttpServer::answer(UniqueFd to) {
     if (const auto found = busy.find(file); found != busy.end() && found->second-- > 0) status = "503";
     requests_.push_back("GET /" + file + " " + status);
   }
+  const bool is_list = file.ends_with(".m3u8");
+  if (const auto to_file = moved.find(file); to_file != moved.end()) {
+    sendAll(to, "HTTP/1.1 302 Found\r\nLocation: /" + to_file->second +
+                    "\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+    return;
+  }
+  if (!is_list && !cookie.empty() && head.find("Cookie: " + cookie) == head.npos) status = "403";
   if (*status != '2') {
     sendAll(to, std::string("HTTP/1.1 ") + status + " No\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
     return;
   }
   std::string answer_head = std::string("HTTP/1.1 ") + status + " OK\r\nConnection: close\r\n";
+  if (is_list && !cookie.empty()) answer_head += "Set-Cookie: " + cookie + "; path=/\r\n";
   if (ranges) answer_head += "Accept-Ranges: bytes\r\n";
   answer_head += "Content-Length: " + std::to_string(content->size() - from) + "\r\n";
   if (from > 0) {

@@ -27,10 +27,12 @@ class HttpServer {
   ~HttpServer();
 
   // Set these before the first request.
-  std::map<std::string, Fault> faults;  // by file
-  std::map<std::string, int> busy;      // by file: how often the answer is 503
-  bool ranges = true;                   // false: whole files only
-  double bytes_per_s = 0;               // 0: as fast as it goes
+  std::map<std::string, Fault> faults;       // by file
+  std::map<std::string, int> busy;           // by file: how often the answer is 503
+  std::map<std::string, std::string> moved;  // by file: to which other one a request is sent on
+  std::string cookie;                        // "name=value": lists give it, and other files need it
+  bool ranges = true;                        // false: whole files only
+  double bytes_per_s = 0;                    // 0: as fast as it goes
 
   [[nodiscard]] std::string url(const std::string& file) const;
   // "GET /film.ts 200"; without those that were broken off or refused.

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
 
 #include "drivers/ffmpeg/opening/later_parts.h"
+#include "drivers/ffmpeg/opening/lists.h"
 #include "tests/support/files.h"
 #include "tests/support/network/http_server.h"
 #include "tests/unit/drivers/ffmpeg/ffmpeg_sources.h"
@@ -37,17 +39,44 @@ TEST(LaterParts, AreThoseThatEndLater) {
   EXPECT_EQ(laterParts(kWhole, fromSeconds(1)), head + "7" + map + "#EXTINF:4.0,\na.m4s\n" + second + last);
 }
 
+// Their times may begin again.
+TEST(LaterParts, BehindADiscontinuityStayWithThePartBeforeIt) {
+  std::string list = kWhole;
+  list.insert(list.find("#EXTINF:3"), "#EXT-X-DISCONTINUITY\n");
+  const std::string head = "#EXTM3U\n#EXT-X-MEDIA-SEQUENCE:8\n";
+  EXPECT_EQ(laterParts(list, fromSeconds(9)), head + list.substr(8, list.find("#EXT-X-MEDIA-SEQ") - 8) +
+                                                  "#EXT-X-MAP:URI=\"init.mp4\"\n" +
+                                                  list.substr(list.find("#EXTINF:2.5")));
+}
+
+TEST(LaterParts, OfOneFileKeepTheirPlaces) {
+  const std::string ranges =
+      "#EXTM3U\n#EXT-X-MEDIA-SEQUENCE:0\n#EXTINF:1,\n#EXT-X-BYTERANGE:10@5\na\n#EXTINF:1,\n#EXT-X-BYTERANGE:20\na\n"
+      "#EXTINF:1,\n#EXT-X-BYTERANGE:30\r\na\n#EXT-X-ENDLIST\n";
+  EXPECT_EQ(laterParts(ranges, fromSeconds(2)),
+            "#EXTM3U\n#EXT-X-MEDIA-SEQUENCE:2\n#EXTINF:1,\n#EXT-X-BYTERANGE:30@35\r\na\n#EXT-X-ENDLIST\n");
+}
+
 TEST(LaterParts, OtherListsStayAsTheyAre) {
   const std::string whole = kWhole;
   std::string live = whole.substr(0, whole.find("#EXT-X-ENDLIST"));
-  std::string jumps = whole, following = whole;
-  jumps.insert(jumps.find("#EXTINF:3"), "#EXT-X-DISCONTINUITY\n");
-  following.erase(following.find("@0"), 2);
-  for (const std::string& list :
-       {live, jumps, following, std::string("#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\na.m3u8\n"),
-        std::string("#EXTM3U\na.mkv\nb.mkv\n"), std::string()}) {
+  for (const std::string& list : {live, std::string("#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\na.m3u8\n"),
+                                  std::string("#EXTM3U\na.mkv\nb.mkv\n"), std::string()}) {
     EXPECT_EQ(laterParts(list, fromSeconds(5)), list);
   }
+}
+
+TEST(LaterParts, OfAListThatWasMovedHaveWholeAddresses) {
+  using ffmpeg::withWholeAddresses;
+  const std::string own = "http://host:80/a/b/list?x=/y";
+  EXPECT_EQ(
+      withWholeAddresses("#EXTM3U\n#EXT-X-MAP:URI=\"i.mp4\",BYTERANGE=\"1@0\"\nc.m4s\r\n\n/d\n//e/f\n?g\n../h", own),
+      "#EXTM3U\n#EXT-X-MAP:URI=\"http://host:80/a/b/i.mp4\",BYTERANGE=\"1@0\"\nhttp://host:80/a/b/c.m4s\r\n\n"
+      "http://host:80/d\nhttp://e/f\nhttp://host:80/a/b/list?g\nhttp://host:80/a/b/../h");
+  for (const std::string list : {"https://k/l\n#EXT-X-KEY:URI=\"data:abc\"\n", "#EXT-X-KEY:METHOD=NONE\n", ""}) {
+    EXPECT_EQ(withWholeAddresses(list, own), list);
+  }
+  EXPECT_EQ(withWholeAddresses("a\n", "http://host"), "http://host/a\n");
 }
 
 class ListSeek : public testing::Test {
@@ -115,6 +144,34 @@ TEST_F(ListSeek, FindsItsPictures) {
 TEST_F(ListSeek, FindsItsPicturesOnAServer) {
   const test::HttpServer server(folder_ / "");
   for (const char* list : {"mp4.m3u8", "ts.m3u8", "all.m3u8"}) expectSeeks(server.url(list));
+}
+
+TEST_F(ListSeek, FindsThePartsOfAListThatIsElsewhereAndNeedsACookie) {
+  test::HttpServer server(folder_ / "");
+  server.moved = {{"r/film.m3u8", "mp4.m3u8"}, {"r/all.m3u8", "all.m3u8"}, {"r/watch", "mp4.m3u8"}};
+  server.cookie = "a=b";
+  for (const char* list : {"r/film.m3u8", "r/all.m3u8", "r/watch"}) expectSeeks(server.url(list));
+}
+
+TEST_F(ListSeek, TakesListsByWhatTheyAre) {
+  std::filesystem::rename(folder_ / "mp4.m3u8", folder_ / "variant");
+  writeFile(folder_ / "names.m3u8", "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=300000\nvariant\n");
+  const test::HttpServer server(folder_ / "");
+  expectSeeks(server.url("names.m3u8"));
+}
+
+TEST_F(ListSeek, BehindADiscontinuityReadsFromThePartBeforeIt) {
+  std::string list = test::contentOf(folder_ / "mp4.m3u8");
+  list.insert(list.rfind("#EXTINF", list.find("mp44.m4s")), "#EXT-X-DISCONTINUITY\n");
+  writeFile(folder_ / "jumps.m3u8", list);
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(folder_ / "jumps.m3u8"));
+  ASSERT_TRUE(source->seek(mediaTime(6)));
+  const auto packets = readAll(*source);
+  ASSERT_FALSE(packets.empty());
+  ASSERT_TRUE(packets.front().pts);
+  EXPECT_NEAR(toSeconds(packets.front().pts->time_since_epoch()), 3, 0.15);
+  EXPECT_NEAR(toSeconds(packets.back().pts->time_since_epoch()), 7.96, 0.1);
 }
 
 // FFmpeg crashed on a list of the sound without a part behind the target.
