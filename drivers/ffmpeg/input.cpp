@@ -262,7 +262,7 @@ int Input::shorten(AVFormatContext* context, AVIOContext*& list) {
 }
 
 void Input::readLanguages(AVFormatContext& list) {
-  if (first_part_.empty() || !lacksLanguages(list)) return;
+  if (first_part_.empty() || parts_from_ > Duration(0) || !lacksLanguages(list)) return;
   AVIOContext* part = nullptr;
   if (openAny(&list, &part, first_part_.c_str(), AVIO_FLAG_READ, nullptr) < 0) return;
   takeLanguages(list, *part);

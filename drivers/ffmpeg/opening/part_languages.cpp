@@ -26,6 +26,7 @@ void takeLanguages(AVFormatContext& list, AVIOContext& part) noexcept {
   AVFormatContext* context = avformat_alloc_context();
   if (context == nullptr) return;
   context->pb = &part;
+  context->flags |= AVFMT_FLAG_IGNIDX;  // the head alone, where one file holds all parts
   context->interrupt_callback = list.interrupt_callback;
   if (avformat_open_input(&context, nullptr, av_find_input_format("mov"), nullptr) < 0) return;
   const std::span to(list.streams, list.nb_streams), from(context->streams, context->nb_streams);

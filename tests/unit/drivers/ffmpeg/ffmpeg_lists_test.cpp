@@ -174,6 +174,23 @@ TEST_F(ListSeek, BehindADiscontinuityReadsFromThePartBeforeIt) {
   EXPECT_NEAR(toSeconds(packets.back().pts->time_since_epoch()), 7.96, 0.1);
 }
 
+// Of a film in one file the head lies before all parts. They were walked through at each opening and seek.
+TEST_F(ListSeek, AsksForTheLanguagesOnce) {
+  const std::string command =
+      "cd " + folder_ / "" +
+      " && ffmpeg -v error -f lavfi -i testsrc2=s=320x240:r=25:d=16,noise=alls=60:allf=t -f lavfi -i sine=d=16 -c:v "
+      "libx264 -preset ultrafast -crf 12 -g 25 -c:a aac -hls_time 1 -hls_playlist_type vod -hls_segment_type fmp4 "
+      "-hls_flags single_file one.m3u8";
+  ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT
+  const test::HttpServer server(folder_ / "");
+  const auto source = makeFfmpegSource();
+  ASSERT_TRUE(source->open(server.url("one.m3u8")));
+  const std::size_t opened = server.requests().size();
+  EXPECT_LE(opened, 8u) << "the list, the head and some parts, and the head again";
+  ASSERT_TRUE(source->seek(mediaTime(5)));
+  EXPECT_LE(server.requests().size() - opened, opened);
+}
+
 // FFmpeg crashed on a list of the sound without a part behind the target.
 TEST_F(ListSeek, BehindTheEndOfItsSoundFindsThePictures) {
   std::string sound = test::contentOf(folder_ / "mp4.m3u8");
