@@ -113,7 +113,7 @@ class Player:
 
     def ask(self, words):
         """The answer and the seconds until it came, without those that the player or this program waited for a
-        processor."""
+        processor: those of the longer wait, since both may have waited at once."""
         self.asked += 1
         mine = f"self/task/{threading.get_native_id()}"
         (ran, starved), (_, delayed), began = self.main_thread_s(), self.thread_s(mine), time.monotonic()
@@ -135,7 +135,7 @@ class Player:
         except OSError:
             return None, time.monotonic() - began
         took, now = time.monotonic() - began, self.main_thread_s()
-        took -= now[1] - starved + self.thread_s(mine)[1] - delayed
+        took -= max(now[1] - starved, self.thread_s(mine)[1] - delayed)
         self.ran_s = now[0] - ran
         self.slowest_s = max(self.slowest_s, took)
         return answer, took

@@ -84,13 +84,14 @@ class ListSeek : public testing::Test {
   // 8 s in parts of 1 s, each of which begins with a key frame. The sound begins 20 ms earlier, as AAC does in
   // Matroska.
   void SetUp() override {
+    if (std::system("ffmpeg -version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT
     const std::string command =
         "cd " + folder_ / "" +
         " && ffmpeg -v error -f lavfi -i testsrc2=s=64x48:r=25:d=8 -f lavfi -i sine=d=8 -c:v libx264 -g 25 -bf 0 -c:a "
         "aac "
         "film.mkv && ffmpeg -v error -i film.mkv -c copy -hls_time 1 -hls_playlist_type vod -hls_segment_type fmp4 "
         "mp4.m3u8 && ffmpeg -v error -i film.mkv -c copy -hls_time 1 -hls_playlist_type vod ts.m3u8";
-    if (std::system(command.c_str()) != 0) GTEST_SKIP() << "no ffmpeg program here";  // NOLINT
+    ASSERT_EQ(std::system(command.c_str()), 0);  // NOLINT
     writeFile(folder_ / "all.m3u8",
               "#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=300000\nmp4.m3u8\n#EXT-X-STREAM-INF:BANDWIDTH=200000\nmp4.m3u8\n");
   }
