@@ -91,8 +91,8 @@ class FileEnd {
   void seek(MediaTime target) noexcept;
   // `broken`: FFmpeg has not found the whole packet. `position` in the file, in bytes; below 0 if unknown.
   void note(const Packet& packet, Duration length, bool broken, std::int64_t position) noexcept;
-  // Call after the last packet, with the container that was passed to `open`, if it has times. `doubtful`: FFmpeg
-  // warned there, and may have ended since it cannot read on.
+  // Call after the last packet, if the film has times, with the container that was passed to `open`, or that a seek has
+  // opened of the same film. `doubtful`: FFmpeg warned there, and may have ended since it cannot read on.
   void reach(const AVFormatContext& context, bool doubtful) noexcept;
   // At least; 0 until the end was reached, for a whole film, and if unknown.
   [[nodiscard]] Duration missing() const noexcept { return missing_; }
