@@ -32,8 +32,8 @@ constexpr const char* kNobody =
     "or give its place: inverse3:HOST:PORT";
 
 constexpr const char* kOlder =
-    "no Haply Inverse service of 3.1 or later answers there, but something does on the port that 3.0 had; install 3.1 "
-    "to 3.5";
+    "no Haply Inverse service of 3.1 or later answers there; start it (systemctl start haply-inverse-service, or open "
+    "the Haply Hub); if it is 3.0, which has the port 10000 that answers, install 3.1 to 3.5";
 
 struct FreeAddresses {
   void operator()(addrinfo* list) const noexcept { ::freeaddrinfo(list); }
@@ -65,8 +65,8 @@ class TcpWire final : public Wire {
       connected = connect(*each, cancelled);
       if (connected || connected.error().code == ErrorCode::Cancelled) break;
     }
-    if (!connected && connected.error().os_error == ECONNREFUSED && olderAnswers(addresses->get(), cancelled))
-      connected = fail(ErrorCode::Unsupported, kOlder);
+    if (!connected && connected.error().os_error == ECONNREFUSED)
+      connected = withOlder(connected.error(), addresses->get(), cancelled);
     if (!connected) close();
     return connected;
   }
@@ -120,9 +120,11 @@ class TcpWire final : public Wire {
     return fail(ErrorCode::Timeout, kNobody);
   }
 
-  // Whether a service of 3.0 may run on that host.
-  bool olderAnswers(const addrinfo* addresses, const std::atomic<bool>& cancelled) {
-    const std::uint16_t port = htons(address_.older_port);
+  // `refusal`, or another if a service of 3.0 may run on that host. Other programs have its port, too.
+  std::unexpected<Error> withOlder(Error refusal, const addrinfo* addresses, const std::atomic<bool>& cancelled) {
+    constexpr std::uint16_t kOlderPort = 10000;
+    if (!address_.older_port && address_.port != Address::kUsualPort) return std::unexpected(refusal);
+    const std::uint16_t port = htons(address_.older_port.value_or(kOlderPort));
     for (; addresses != nullptr; addresses = addresses->ai_next) {
       sockaddr_storage place{};
       std::memcpy(&place, addresses->ai_addr, addresses->ai_addrlen);
@@ -130,9 +132,11 @@ class TcpWire final : public Wire {
       else reinterpret_cast<sockaddr_in6&>(place).sin6_port = port;
       addrinfo older = *addresses;
       older.ai_addr = reinterpret_cast<sockaddr*>(&place);
-      if (connect(older, cancelled)) return true;
+      const auto answered = connect(older, cancelled);
+      if (answered) return fail(ErrorCode::NotFound, kOlder, ECONNREFUSED);
+      if (answered.error().code == ErrorCode::Cancelled) return std::unexpected(answered.error());
     }
-    return false;
+    return std::unexpected(refusal);
   }
 
   Result<void> outcome() {

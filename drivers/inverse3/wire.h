@@ -15,9 +15,12 @@
 namespace relievo::inverse3 {
 
 struct Address {
+  static constexpr std::uint16_t kUsualPort = 10001;
+
   std::string host = "localhost";
-  std::uint16_t port = 10001;
-  std::uint16_t older_port = 10000;  // of the service's versions before 3.1, whose messages are not spoken
+  std::uint16_t port = kUsualPort;
+  // Of the service's versions before 3.1, whose messages are not spoken; unset: that beside the usual `port`.
+  std::optional<std::uint16_t> older_port;
 
   // "HOST", "HOST:PORT", "[IPv6]:PORT"; nullopt for anything else.
   [[nodiscard]] static std::optional<Address> parse(const std::string& text);
@@ -30,8 +33,8 @@ class Wire {
  public:
   virtual ~Wire() = default;
 
-  // NotFound: nobody listens there. Unsupported: nobody does, but at the older port. Timeout; Cancelled within 100 ms
-  // after `cancelled` is set.
+  // NotFound: nobody listens there; the message differs if somebody does at the older port. Timeout; Cancelled within
+  // 100 ms after `cancelled` is set.
   [[nodiscard]] virtual Result<void> open(const std::atomic<bool>& cancelled) = 0;
   virtual void close() noexcept = 0;
 

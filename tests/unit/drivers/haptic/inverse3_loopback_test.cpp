@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "drivers/inverse3/inverse3.h"
 #include "platform/allocation_counter.h"
@@ -36,6 +39,11 @@ class Inverse3Loopback : public testing::Test {
     if (sample) static_cast<void>(device.write({0, 0, 1}));
     clock_.sleepUntil(clock_.now() + 1ms);
     return sample;
+  }
+  // Nobody listens there.
+  static std::uint16_t freePort() {
+    const UniqueFd gone = test::bindLoopback(SOCK_STREAM);
+    return test::portOf(gone);
   }
   MonotonicClock clock_;
 };
@@ -111,15 +119,45 @@ TEST_F(Inverse3Loopback, WhatIsNoSuchServiceIsRefused) {
 // A service of 3.0 has no other port than the older one.
 TEST_F(Inverse3Loopback, WhereOnlyTheOlderPortAnswersANewerServiceIsAskedFor) {
   const UniqueFd older = test::bindLoopback(SOCK_STREAM);
-  std::uint16_t nobody = 0;
-  {
-    const UniqueFd gone = test::bindLoopback(SOCK_STREAM);
-    nobody = test::portOf(gone);
-  }
-  const auto opened = deviceAt({.host = "127.0.0.1", .port = nobody, .older_port = test::portOf(older)})->open();
+  const auto opened = deviceAt({.host = "127.0.0.1", .port = freePort(), .older_port = test::portOf(older)})->open();
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+  EXPECT_THAT(opened.error().message, testing::HasSubstr("systemctl start"));
   EXPECT_THAT(opened.error().message, testing::HasSubstr("install 3.1"));
+}
+
+TEST_F(Inverse3Loopback, LooksForTheOlderPortOnlyBesideTheUsualOne) {
+  UniqueFd older;
+  try {
+    older = test::bindLoopback(SOCK_STREAM, 10000);
+  } catch (const std::runtime_error&) {  // another program answers there
+  }
+  const auto opened = deviceAt({.host = "127.0.0.1", .port = freePort()})->open();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
+  EXPECT_THAT(opened.error().message, testing::Not(testing::HasSubstr("3.0")));
+}
+
+// Its queue of connections is full, so that the next one waits.
+TEST_F(Inverse3Loopback, LookingForTheOlderPortCanBeCancelled) {
+  const UniqueFd older = test::bindLoopback(SOCK_STREAM);
+  ASSERT_EQ(::listen(older.get(), 0), 0);
+  const sockaddr_in place = test::loopback(test::portOf(older));
+  std::vector<UniqueFd> waiting;
+  for (int i = 0; i < 4; ++i) {
+    waiting.emplace_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+    static_cast<void>(::connect(waiting.back().get(), reinterpret_cast<const sockaddr*>(&place), sizeof place));
+  }
+  std::atomic<bool> cancelled = false;
+  std::thread canceller([&cancelled] {
+    std::this_thread::sleep_for(200ms);
+    cancelled = true;
+  });
+  const auto wire = inverse3::makeTcpWire({.host = "127.0.0.1", .port = freePort(), .older_port = test::portOf(older)});
+  const auto opened = wire->open(cancelled);
+  canceller.join();
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().code, ErrorCode::Cancelled);
 }
 
 TEST_F(Inverse3Loopback, AtTheLimitOfProcessesOpeningFails) {
