@@ -134,7 +134,8 @@ void Timing::align(const FoundPictures& found, NameKind depth_kind) {
   const bool comparable = kind == depth_kind && kind != NameKind::Ranks && overlap(color, depth);
   if (!comparable) {
     if (pairByKey(found)) return;
-    if (2 * depth.size() < color.size() && kind != NameKind::Seconds) {
+    // In a folder of its own depth is one series.
+    if (found.color.folder == found.depth.folder && 2 * depth.size() < color.size() && kind != NameKind::Seconds) {
       notes.push_back(print("the depth is left out: names such as %s fit none of the %zu pictures; give it by --depth",
                             found.depth.names[depth.front().place].c_str(), color.size()));
       depth.clear();

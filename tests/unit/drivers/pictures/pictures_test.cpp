@@ -230,6 +230,14 @@ TEST_F(Pictures, AFewDepthsWhoseNamesFitNoPictureAreLeftOut) {
   EXPECT_THAT(film.notes, Contains(AllOf(HasSubstr("disparity.png"), HasSubstr("--depth"))));
 }
 
+TEST_F(Pictures, DepthInAFolderOfItsOwnMayEndEarly) {
+  for (int k = 0; k < 30; ++k) file("rd/rgb/img00" + std::to_string(10 + k) + ".png");
+  for (int k = 0; k < 13; ++k) file("rd/depth/d0050" + std::to_string(10 + k) + ".png");
+  const Film film = read(folder_ / "rd");
+  EXPECT_EQ(film.depth.size(), 13u);
+  EXPECT_THAT(film.notes, Contains(HasSubstr("paired in their order")));
+}
+
 TEST_F(Pictures, ASeekBeginsWithThePicturesAtTheTarget) {
   for (int k = 0; k < 9; ++k) file("r/rgb/" + std::to_string(k) + ".png");
   file("r/depth/0.png"), file("r/depth/6.png");
