@@ -28,6 +28,13 @@ std::string placeOf(const std::string& path) {
   return path.substr(0, path.rfind('/') - folderIn(path).size());
 }
 
+// True for a name in seconds, such as "1305031102.160407.png". Recordings that count in other units of time, such as
+// Redwood's, store mm.
+bool isSeconds(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1), stem = name.substr(0, name.rfind('.'));
+  return stem.find('.') != stem.npos && stem.find_first_not_of("0123456789.") == stem.npos;
+}
+
 // The first depth_scale in scene_camera.json; 0 if there is none.
 double bopScaleMm(const std::string& place) {
   const auto text = readWholeFile(place + "scene_camera.json", FileSize::Recording, "");
@@ -65,10 +72,11 @@ std::size_t samplesOf(const std::vector<std::uint8_t>& pgm, std::string_view kin
 
 }  // namespace
 
-std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth) {
+std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth, bool listed) {
   if (::fnmatch("*_sync_groundtruth_depth_*_image_0[23].png", depth.c_str(), 0) == 0)
     return {{"DEPTH_UNIT", "3.90625"}, {"DEPTH_INVALID", "0"}};
   if (folderIn(depth) != "depth" || folderIn(color) != "rgb" || endingOf(depth) != "png") return {};
+  if (listed || isSeconds(depth)) return {{kLayoutTag, "tum"}};
   const double scale = bopScaleMm(placeOf(depth));
   if (scale == 0) return {};
   return {{"DEPTH_UNIT", print("%.9g", scale)}, {"DEPTH_INVALID", "0"}};

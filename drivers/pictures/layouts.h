@@ -11,9 +11,12 @@
 namespace relievo::pictures {
 
 // Tags of the depth's meaning, by the first pictures' paths.
+//   TUM, ICL-NUIM   rgb/ and depth/ with seconds in names or a list (`listed`), PNG: kLayoutTag, since others record in
+//                   mm so
 //   KITTI           .._sync_groundtruth_depth_0000000005_image_02.png, its selection of pictures: 256 codes a metre
 //   BOP             scene_camera.json beside rgb/ and depth/: its depth_scale, in mm
-[[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth);
+[[nodiscard]] std::map<std::string, std::string> depthTagsOf(const std::string& color, const std::string& depth,
+                                                             bool listed);
 
 // The pictures a second of layouts whose names give no times, by the first pictures' paths; 0 for pictures of different
 // scenes; nullopt if nothing is known.

@@ -279,9 +279,7 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   const auto& leading = recording.color.empty() ? recording.depth : recording.color;
   recording.period = counted ? Duration(std::llround(period_ns)) : usualStep(leading, &TimedPicture::time);
   if (leading.size() < 2) recording.period = Duration(0);
-  if (timing.kind != NameKind::Ranks) {
-    recording.start = timeAfter(first, period_ns);
-  }
+  if (timing.kind != NameKind::Ranks) recording.start = timeAfter(first, period_ns);
   recording.numbered = counted;
   recording.notes = std::move(timing.notes);
   if (counted && !frames_per_s && leading.size() > 1) {
@@ -293,7 +291,8 @@ Recording recordingOf(const FoundPictures& found, std::optional<double> frames_p
   }
   recording.views = found.views;
   if (both && !found.views)
-    recording.depth_tags = depthTagsOf(recording.color.front().path, recording.depth.front().path);
+    recording.depth_tags =
+        depthTagsOf(recording.color.front().path, recording.depth.front().path, !found.color_values.empty());
   if (found.left_out > 0) recording.notes.push_back(print("%zu other pictures are left out", found.left_out));
   return recording;
 }

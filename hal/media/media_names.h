@@ -14,6 +14,9 @@ namespace relievo {
 // The tag of a stream of pictures that names its first file: of depth, or of the only series.
 inline constexpr const char* kFileTag = "FILE";
 
+// The tag of the depth of a recording whose layout is known, which does not say for sure what its codes are: "tum".
+inline constexpr const char* kLayoutTag = "LAYOUT";
+
 // The tag of a stream of two views that says whether each was squeezed by half: 1 or 0.
 inline constexpr const char* kSqueezedTag = "STEREO_SQUEEZED";
 // The tag of a stream that is one of two views: left or right.

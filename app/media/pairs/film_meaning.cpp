@@ -22,12 +22,15 @@ namespace {
 
 constexpr double kMostlyGray = 0.9, kAllGray = 0.99;
 
-// The second source; else the first file of a recording's depth. Empty if there is neither.
-std::string depthFileOf(const MediaSource& source, const std::string& depth_url) {
+// The place of the second source; else of the first file of a recording's depth, if the recording has any.
+RecordingPlace placeOf(const MediaSource& source, const std::string& url, const std::string& depth_url) {
   const StreamInfo* const depth = depth_url.empty() ? findDepthTrack(source) : nullptr;
-  if (depth == nullptr) return depth_url;
-  const auto file = depth->tags.find(kFileTag);
-  return file != depth->tags.end() ? file->second : "";
+  if (depth == nullptr) return lookAtPlace(url, depth_url);
+  const auto tag = [depth](const char* key) {
+    const auto found = depth->tags.find(key);
+    return found != depth->tags.end() ? found->second : "";
+  };
+  return lookAtPlace(url, tag(kFileTag), tag(kLayoutTag));
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ void FilmMeaning::begin() {
   kind_ = nullptr;
   views_disproved_ = false;
   clues_.place = lookAtTags(source.tags());
-  if (clues_.place.kind == nullptr) clues_.place = lookAtPlace(options.url, depthFileOf(source, options.depth_url));
+  if (clues_.place.kind == nullptr) clues_.place = placeOf(source, options.url, options.depth_url);
   film_.info.reading = {};
   if (options.depth_code) {
     takeCode(*options.depth_code, CalibrationOrigin::CommandLine);

@@ -119,10 +119,10 @@ bool hasDigits(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// "1305031102.175304": seconds with a fraction.
-bool isSeconds(std::string_view stem) {
-  const std::size_t dot = stem.find('.');
-  return dot != std::string_view::npos && dot >= 9 && hasDigits(stem.substr(0, dot)) && hasDigits(stem.substr(dot + 1));
+// "1305031102.175304": seconds with a fraction, with so many digits before it.
+bool isSeconds(std::string_view stem, std::size_t digits = 9) {
+  const std::size_t dot = std::min(stem.find('.'), stem.size());
+  return dot >= digits && hasDigits(stem.substr(0, dot)) && dot < stem.size() && hasDigits(stem.substr(dot + 1));
 }
 
 // "d-1294886360.208451-2996770081"
@@ -134,8 +134,9 @@ bool isTum(const fs::path& path, const fs::path& folder) {
   const fs::path above = folder.parent_path();
   // Beside color/ the pictures tell the unit: recorders in mm name them so (OpenLORIS, ROS).
   const auto lists = [&above](const char* name) { return isRegularFile(above / name); };
-  return (isSeconds(path.stem().string()) && !isFolder(above / "color")) || lists("associations.txt") ||
-         lists("associate.txt") || lists("association.txt") || lists("assoc.txt") ||
+  const bool beside_rgb = folder.filename() == "depth" && isFolder(above / "rgb");
+  return (isSeconds(path.stem().string(), beside_rgb ? 1 : 9) && !isFolder(above / "color")) ||
+         lists("associations.txt") || lists("associate.txt") || lists("association.txt") || lists("assoc.txt") ||
          (lists("depth.txt") && lists("rgb.txt"));
 }
 
@@ -150,6 +151,10 @@ bool isNiceSlam(const fs::path& path, const fs::path& folder) {
 bool isSceneNet(const fs::path& folder) {
   const fs::path above = folder.parent_path();
   return folder.filename() == "depth" && isFolder(above / "photo") && isFolder(above / "instance");
+}
+
+RecordingPlace asTum() {
+  return {findKind("tum"), CalibrationOrigin::Name, {}, "names and lists as TUM's"};
 }
 
 RecordingPlace named(const char* kind, const char* sign) {
@@ -210,7 +215,7 @@ RecordingPlace lookAtNames(const fs::path& path, const fs::path& folder) {
   }
   if (isNiceSlam(path, folder)) return named("replica", "NICE-SLAM's form results/depth000000 beside traj.txt");
   if (isSceneNet(folder)) return named("scenenet", "SceneNet's form depth beside photo and instance");
-  if (isTum(path, folder)) return {findKind("tum"), CalibrationOrigin::Name, {}, "names and lists as TUM's"};
+  if (isTum(path, folder)) return asTum();
   return {};
 }
 
@@ -245,7 +250,7 @@ void addStereoCamera(const fs::path& path, const fs::path& folder, RecordingPlac
 
 }  // namespace
 
-RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url) {
+RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url, const std::string& layout) {
   const std::string& depth = depth_url.empty() ? url : depth_url;
   if (depth.find("://") != std::string::npos || depth.starts_with("v4l2:")) return {};
   std::error_code error;
@@ -255,7 +260,7 @@ RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url)
   if (auto depthkit = lookForDepthkit(path); depthkit.kind != nullptr) return depthkit;
   if (auto lerobot = lookForLeRobot(path); lerobot.kind != nullptr) return lerobot;
   if (auto scale = lookForScale(folder); scale.kind != nullptr) return scale;
-  RecordingPlace place = lookAtNames(path, folder);
+  RecordingPlace place = layout == "tum" ? asTum() : lookAtNames(path, folder);
   addStereoCamera(path, folder, place);
   return place;
 }

@@ -25,8 +25,10 @@ struct RecordingPlace {
 };
 
 // Examines `depth_url`, or `url` if that is empty; for addresses of networks and devices nothing is found. Reads only
-// small files: a camera's JSON, Depthkit's, LeRobot's, calib.txt.
-[[nodiscard]] RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url);
+// small files: a camera's JSON, Depthkit's, LeRobot's, calib.txt. `layout`: the depth's kLayoutTag, which says more
+// than words in the path.
+[[nodiscard]] RecordingPlace lookAtPlace(const std::string& url, const std::string& depth_url,
+                                         const std::string& layout = "");
 // Reads a JSON text among the container's tags (Record3D).
 [[nodiscard]] RecordingPlace lookAtTags(const std::map<std::string, std::string>& tags);
 

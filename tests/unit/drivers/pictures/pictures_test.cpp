@@ -78,13 +78,14 @@ TEST_F(Pictures, DepthGoesToTheNearestColourWithin20Ms) {
                            "depth/10.130.png", "depth/10.225.png"}) {
     file("tum/" + std::string(name));
   }
-  const Film film = read(folder_ / "tum");
+  Film film = read(folder_ / "tum");
   EXPECT_THAT(film.color, ElementsAre("0 tum/rgb/10.100.png", "33 tum/rgb/10.133.png", "100 tum/rgb/10.200.png"));
   EXPECT_THAT(film.depth, ElementsAre("0 tum/depth/10.095.png", "12 tum/depth/10.112.png", "33 tum/depth/10.130.png",
                                       "125 tum/depth/10.225.png"));
   EXPECT_THAT(film.notes, ElementsAre("1 of 3 colour pictures have no depth within 20 ms"));
   ASSERT_EQ(film.streams.size(), 2u);
   EXPECT_EQ(film.streams[1].tags.at("TITLE"), "depth");
+  EXPECT_EQ(film.streams[1].tags["LAYOUT"], "tum");
 }
 
 TEST_F(Pictures, AListSaysWhatBelongsTogether) {
@@ -124,6 +125,20 @@ TEST_F(Pictures, OneRateIsAssumedForFoldersAndPatterns) {
     EXPECT_EQ(film.color.back(), "33.3333 n/2.png") << url;
     EXPECT_THAT(film.notes, ElementsAre(HasSubstr("30 pictures a second assumed")));
   }
+}
+
+// Redwood's times are no seconds, and its codes are mm.
+TEST_F(Pictures, SecondsAndListsAloneSpeakForTumsLayout) {
+  const auto saysLayout = [&](const std::string& name, const std::string& time) {
+    file(name + "/rgb/" + time + ".jpg"), file(name + "/depth/" + time + ".png");
+    return read(folder_ / name).streams.at(1).tags.contains("LAYOUT");
+  };
+  EXPECT_TRUE(saysLayout("t", "1305031102.160407"));
+  EXPECT_TRUE(saysLayout("s", "10.225000"));
+  EXPECT_FALSE(saysLayout("r", "0000001-000000033369"));
+  EXPECT_FALSE(saysLayout("n", "1403636579763555584"));
+  file("n/associations.txt", "1 rgb/1403636579763555584.jpg 1 depth/1403636579763555584.png\n");
+  EXPECT_TRUE(saysLayout("n", "1403636579763555584")) << "a list";
 }
 
 // Kubric's layers in one folder; Sintel's and HoloLens' folders.

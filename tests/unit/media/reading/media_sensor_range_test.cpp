@@ -147,6 +147,30 @@ TEST(SensorRange, AFolderLaidOutAsTumsMayBeInMillimetres) {
   for (const test::OpenedFilm* const of : {&mm, &tum}) EXPECT_NEAR(of->distanceAt(80, 54), distanceMm(80, 54), 1);
 }
 
+// Distances that could be mm as well are TUM's where names or a list beside it or above it say so, whatever words the
+// path has.
+TEST(SensorRange, TumsLayoutSaysItsUnitWhereThePicturesDoNot) {
+  const test::TemporaryFolder folder;
+  const auto expectTum = [&](const std::string& place, const std::string& name, const std::string& list) {
+    for (const char* const of : {"/rgb", "/depth"}) std::filesystem::create_directories(folder / (place + of));
+    const std::string rgb = "/rgb/" + name + ".png", depth = "/depth/" + name + ".png";
+    test::makeClip(folder / (place + rgb), {pictures("rgb24", [](int k, int c, int r) { return 40 * k + c + r / 2; })});
+    test::makeClip(folder / (place + depth),
+                   {pictures("gray16be", [](int, int c, int r) { return 2800 + 9 * c + r; })});
+    const std::string camera = place.substr(place.find('/') + 1), top = place.substr(0, place.find('/'));
+    if (!list.empty()) {
+      const std::string under = list == "above" ? camera : ".";
+      std::ofstream(folder / ((list == "above" ? top : place) + "/associations.txt"))
+          << "1.5 " + under + rgb + " 1.5 " + under + depth + "\n";
+    }
+    const test::OpenedFilm film = test::openFilm({.url = folder / (list == "above" ? top : place)});
+    EXPECT_EQ(film.info.calibration.calibration.unit_mm, 0.2) << place;
+  };
+  expectTum("t1", "10.225000", "");
+  expectTum("t2/cam", "0", "above");
+  expectTum("kitti_mix/fr", "0", "beside");
+}
+
 // Redwood's times are no seconds, and its codes are mm.
 TEST(SensorRange, SecondsAndListsAloneAreTums) {
   const test::TemporaryFolder folder;
@@ -156,6 +180,9 @@ TEST(SensorRange, SecondsAndListsAloneAreTums) {
     return lookAtPlace(folder / (name + "/depth/" + time + ".png"), "").kind;
   };
   EXPECT_EQ(kindOfDepth("t", "1305031102.160407"), findKind("tum"));
+  EXPECT_EQ(kindOfDepth("s", "10.225000"), nullptr);
+  std::filesystem::create_directories(folder / "s/rgb");
+  EXPECT_EQ(kindOfDepth("s", "10.225000"), findKind("tum")) << "beside rgb";
   EXPECT_EQ(kindOfDepth("r", "0000001-000000033369"), nullptr);
   EXPECT_EQ(kindOfDepth("n", "1403636579763555584"), nullptr);
   for (const char* const list : {"associations.txt", "associate.txt", "association.txt", "assoc.txt"}) {
