@@ -291,7 +291,7 @@ Result<DepthMeaning> readMeaning(const DepthClues& clues, const KnownKind* kind,
   if (placed) reading.why.push_back(clues.place.why);
   if (!read.why.empty()) reading.why.push_back(std::move(read.why));
   if (!read.offer.empty()) reading.offers.push_back(std::move(read.offer));
-  if (is("mm", kind) && is("tum", clues.place.kind) && clues.as == nullptr) reading.offers.emplace_back(kAsTum);
+  if (is("mm", kind) && is("tum", clues.place.kind) && clues.as == nullptr) reading.doubts.emplace_back(kAsTum);
   if (!doubt.line.empty()) reading.doubts.push_back(std::move(doubt.line));
   if (!read.doubt.empty()) reading.doubts.push_back(std::move(read.doubt));
   reading.near_end_is_usual = doubt.usual;

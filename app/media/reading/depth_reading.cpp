@@ -24,8 +24,8 @@ constexpr const char* kAnyUnit = "in any other unit: --calibration unit=MM,inval
 // Of 11 bits the highest is a hole; some recorders write the code beyond.
 constexpr std::uint32_t kRawHole = 2047, kRawHoleBeyond = 2048, kRawLowest = 300, kRawHighest = 1084;
 
-// Most scenes lie beyond .6 m: 3000 codes at 5000 a metre.
-constexpr std::uint32_t kNearestOfFine = 3000;
+// Most scenes lie beyond .6 m: 3000 codes at 5000 a metre. No sensor sees nearer than .2 m, which is 1000 of those.
+constexpr std::uint32_t kNearestOfFine = 3000, kLeastOfFine = 1000;
 
 // mm in tenths: steps of ten codes that 8, 10 or 12 bits stretched to 16 do not make.
 constexpr std::uint32_t kTenths = 10, kMostStep = 8;
@@ -245,8 +245,9 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& all) {
   if (isNetwork(depth, count)) return nullptr;
   if (const KnownKind* const measured = kindBySteps(count); measured != nullptr) return measured;
   const auto reach = count.reach(kOutliers, 1, kTop - 1);
-  const bool fine =
-      (reach.high > kFarthestMm || count.together().quantile(0.5, 1, kTop - 1) > kMiddleMm) && reach.low > kLeastOfFine;
+  const CodeCount together = count.together();
+  const bool far = reach.high > kFarthestMm || together.quantile(0.5, 1, kTop - 1) > kMiddleMm;
+  const bool fine = far && reach.low > kLeastOfFine && !beginsNearerThanKinectSees(together);
   return findKind(!fine ? "mm" : step == kTenths ? "ycb" : "tum");
 }
 

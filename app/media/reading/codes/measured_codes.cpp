@@ -34,8 +34,14 @@ bool isDistances(const CodeCount& count) {
   return hasStereoSteps(count) || (gap && isMeasured(count) && count.quantile(kMost, 1, kTop - 1) < kFarthestMm);
 }
 
+bool beginsNearerThanKinectSees(const CodeCount& count) {
+  constexpr double kFew = 0.05;
+  constexpr std::uint32_t kLeast = 1750;
+  return count.quantile(kFew, 1, kTop - 1) < kLeast;
+}
+
 bool isTooNearForKinect(const CodeCount& count) {
-  return count.quantile(kOutliers, 1, kTop - 1) < kLeastOfFine && count.quantile(0.5, 1, kTop - 1) <= kMiddleMm;
+  return beginsNearerThanKinectSees(count) && count.quantile(0.5, 1, kTop - 1) <= kMiddleMm;
 }
 
 bool hasStereoSteps(const CodeCount& count) {
@@ -84,7 +90,7 @@ const KnownKind* kindBySteps(const CodeCount& count) {
     return constant && *constant >= range.least && *constant <= range.most;
   };
   if (within(kMm)) return findKind("mm");
-  if (within(kTum)) return findKind(count.quantile(kOutliers, 1, kTop - 1) < kLeastOfFine ? "mm" : "tum");
+  if (within(kTum)) return findKind(beginsNearerThanKinectSees(count) ? "mm" : "tum");
   return within(kTenths) ? findKind("ycb") : nullptr;
 }
 

@@ -13,15 +13,18 @@ namespace relievo {
 // (0) and its nearest reading.
 inline constexpr std::uint32_t kMaybeStretched = 0x8000;
 
-// Most sensors see less far than 12 m, and half of a scene within 5 m. The sensors whose recordings have 5000 codes a
-// metre, Kinect and Xtion, see nothing nearer than .35 m, 1750 codes.
-inline constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000, kLeastOfFine = 1750;
+// Most sensors see less far than 12 m, and half of a scene within 5 m.
+inline constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000;
 
 // A sensor's picture holds many different codes.
 [[nodiscard]] bool isMeasured(const CodeCount& count);
 
 // True for codes that leave out a large part of their range, or are a stereo camera's.
 [[nodiscard]] bool isDistances(const CodeCount& count);
+
+// True if, at 5000 codes a metre, more of the view would be nearer than Kinect and Xtion see, .35 m, than a hand in
+// front of it or one picture of many. Those are the sensors whose recordings have as many.
+[[nodiscard]] bool beginsNearerThanKinectSees(const CodeCount& count);
 
 // True for distances in mm of a room which, at 5000 codes a metre, would begin nearer than a Kinect sees.
 [[nodiscard]] bool isTooNearForKinect(const CodeCount& count);

@@ -128,6 +128,20 @@ TEST(SensorRange, AStereoCamerasStepsTellItsUnit) {
   EXPECT_FALSE(stereoConstant(CodeCount(even)));
 }
 
+// .25 m at 5000 codes a metre: a hand in front, and one picture of three.
+TEST(SensorRange, AFewNearSamplesMakeNoMillimetres) {
+  const auto picture = [](int near_from) {
+    return makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+      return c >= near_from ? 1200u + static_cast<std::uint32_t>(r) : 5u * static_cast<std::uint32_t>(distanceMm(c, r));
+    });
+  };
+  EXPECT_EQ(kindIn(picture(kCols - 2)), findKind("tum"));
+  EXPECT_EQ(kindIn(picture(kCols - 20)), findKind("mm"));
+  CodeCount three(picture(kCols));
+  three.addLater(picture(kCols)), three.addLater(picture(kCols - 20));
+  EXPECT_EQ(sensorKind(picture(kCols), three), findKind("tum"));
+}
+
 // Recorders in mm lay out their folders as TUM does, whose codes are fifths of a mm.
 TEST(SensorRange, AFolderLaidOutAsTumsMayBeInMillimetres) {
   const auto film = [](double times) {
@@ -142,7 +156,7 @@ TEST(SensorRange, AFolderLaidOutAsTumsMayBeInMillimetres) {
   };
   const test::OpenedFilm mm = film(1), tum = film(5);
   EXPECT_EQ(mm.info.calibration.calibration.unit_mm, 1.0);
-  EXPECT_THAT(mm.info.reading.offers, Contains(HasSubstr("--as tum")));
+  EXPECT_THAT(mm.info.reading.doubts, Contains(HasSubstr("--as tum")));
   EXPECT_EQ(tum.info.calibration.calibration.unit_mm, 0.2);
   for (const test::OpenedFilm* const of : {&mm, &tum}) EXPECT_NEAR(of->distanceAt(80, 54), distanceMm(80, 54), 1);
 }
