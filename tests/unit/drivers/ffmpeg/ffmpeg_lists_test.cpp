@@ -33,8 +33,9 @@ TEST(LaterParts, AreThoseThatEndLater) {
   EXPECT_EQ(laterParts(kWhole, fromSeconds(4.1)), head + "8" + map + second + last);
   EXPECT_EQ(laterParts(kWhole, fromSeconds(6.4)), head + "8" + map + second + last);
   EXPECT_EQ(laterParts(kWhole, fromSeconds(6.5)), head + "9" + map + last);
+  const std::string last_alone = head + "9" + map + last;
   for (const double after_s : {9.4, 9.5, 60.0}) {
-    EXPECT_EQ(laterParts(kWhole, fromSeconds(after_s)), head + "9" + map + last) << "no list is without a part";
+    EXPECT_EQ(laterParts(kWhole, fromSeconds(after_s)), last_alone) << "no list is without a part";
   }
   EXPECT_EQ(laterParts(kWhole, fromSeconds(1)), head + "7" + map + "#EXTINF:4.0,\na.m4s\n" + second + last);
 }
@@ -59,7 +60,7 @@ TEST(LaterParts, OfOneFileKeepTheirPlaces) {
 
 TEST(LaterParts, OtherListsStayAsTheyAre) {
   const std::string whole = kWhole;
-  std::string live = whole.substr(0, whole.find("#EXT-X-ENDLIST"));
+  const std::string live = whole.substr(0, whole.find("#EXT-X-ENDLIST"));
   for (const std::string& list : {live, std::string("#EXTM3U\n#EXT-X-STREAM-INF:BANDWIDTH=1\na.m3u8\n"),
                                   std::string("#EXTM3U\na.mkv\nb.mkv\n"), std::string()}) {
     EXPECT_EQ(laterParts(list, fromSeconds(5)), list);

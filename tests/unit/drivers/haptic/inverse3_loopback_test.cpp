@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -127,11 +126,11 @@ TEST_F(Inverse3Loopback, WhereOnlyTheOlderPortAnswersANewerServiceIsAskedFor) {
 }
 
 TEST_F(Inverse3Loopback, LooksForTheOlderPortOnlyBesideTheUsualOne) {
-  UniqueFd older;
-  try {
-    older = test::bindLoopback(SOCK_STREAM, 10000);
-  } catch (const std::runtime_error&) {  // another program answers there
-  }
+  const UniqueFd older(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  ASSERT_TRUE(older.valid());
+  const sockaddr_in place = test::loopback(10000);
+  const bool free = ::bind(older.get(), reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0;
+  ASSERT_TRUE(!free || ::listen(older.get(), 1) == 0);  // if it is not, another program answers there
   const auto opened = deviceAt({.host = "127.0.0.1", .port = freePort()})->open();
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().code, ErrorCode::NotFound);
