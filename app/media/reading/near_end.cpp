@@ -8,6 +8,7 @@
 
 #include "app/media/reading/depth_doubts.h"
 #include "app/media/reading/film_reading.h"
+#include "hal/media/media_names.h"
 #include "platform/print.h"
 
 namespace relievo {
@@ -58,7 +59,9 @@ bool isStill(const StreamInfo& stream) {
   constexpr int kLeastSeconds = 2;
   if (!stream.counted) return false;
   const Ratio rate = stream.average_rate;
-  return rate.known() ? rate.num <= rate.den / kLeastSeconds : stream.duration == Duration(0);
+  if (rate.known()) return rate.num <= rate.den / kLeastSeconds;
+  // A film without a container has a period, as a picture of the reader of pictures has if --fps is stated.
+  return stream.duration == Duration(0) && (stream.frame_period == Duration(0) || stream.tags.contains(kFileTag));
 }
 
 Result<CalibrationChoice> chooseNearEnd(const DepthClues& clues, const Frame& look, CalibrationLayers& layers,

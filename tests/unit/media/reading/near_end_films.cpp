@@ -37,6 +37,8 @@ TEST(NearEnd, AFilmOfPicturesIsNearWhereItIsBrightWhateverItsViewShows) {
   EXPECT_EQ(polarityOf(folder / "depth.avi"), DepthPolarity::NearIsHigh);
   makeClip(folder / "depth.mov", {darkerBelow("png", "gray", 25)});
   EXPECT_EQ(polarityOf(folder / "depth.mov"), DepthPolarity::NearIsHigh);
+  makeClip(folder / "depth.mjpeg", {darkerBelow("mjpeg", "yuvj420p", 25)});  // no container
+  EXPECT_EQ(polarityOf(folder / "depth.mjpeg"), DepthPolarity::NearIsHigh);
   std::filesystem::create_directories(folder / "depth");
   makeClip(folder / "depth/%03d.png", {darkerBelow("png", "gray", 25)});
   EXPECT_EQ(polarityOf(folder / "depth"), DepthPolarity::NearIsHigh);
