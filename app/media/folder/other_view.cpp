@@ -51,8 +51,14 @@ std::string otherViewBeside(const std::string& picture) {
   const fs::path path(picture);
   const std::string other = otherOf(path.stem().string());
   if (other.empty()) return "";
-  const std::string beside = fs::path(path).replace_filename(other + path.extension().string()).string();
-  return isRegularFile(beside) ? beside : "";
+  const auto beside = [&path](const std::string& stem) {
+    return fs::path(path).replace_filename(stem + path.extension().string()).string();
+  };
+  // im2 beside im0 and im1: a series.
+  const std::string counted = other.substr(0, other.size() - 1);
+  if (path.stem().string().starts_with(counted) && counted.ends_with("im") && isRegularFile(beside(counted + "2")))
+    return "";
+  return isRegularFile(beside(other)) ? beside(other) : "";
 }
 
 }  // namespace relievo

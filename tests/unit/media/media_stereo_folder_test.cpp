@@ -94,6 +94,8 @@ TEST_F(StereoFolder, OneViewByItselfNamesTheOther) {
   EXPECT_THAT(notes("right.png"), Contains(HasSubstr("/left.png beside it")));
   EXPECT_THAT(notes("a_L.png"), Contains(HasSubstr("/a_R.png beside it")));
   EXPECT_THAT(notes("street/im0.png"), Contains(HasSubstr("street/im1.png beside it")));
+  view("street/im2.png", 200);
+  EXPECT_THAT(notes("street/im0.png"), Not(Contains(HasSubstr("beside it")))) << "a series";
   EXPECT_THAT(notes("c.png"), Not(Contains(HasSubstr("beside it"))));
   disparities("left_disp.png", [](double mm) { return 90000 / mm; });
   EXPECT_THAT(notes("left.png"), Not(Contains(HasSubstr("right.png beside it"))));
