@@ -66,7 +66,8 @@ constexpr const char* kOpencv =
 constexpr const char* kPacked = "it is compressed; unpack it and name what is in it";
 constexpr const char* kModel =
     "it is a 3D model; relievo plays depth pictures: give the recording that it was made from";
-constexpr const char* kMedical = "it is a medical image, whose numbers are no depth";
+constexpr const char* kMedical =
+    "it is a medical image, which is not read; if its numbers are depth, write them as 16-bit PNG or .npy";
 constexpr const char* kZed = "it is a recording of a ZED camera; convert it: ZED_SVO_Export FILE FOLDER 4";
 constexpr std::array<UnreadEnding, 34> kUnreadEndings{{
     {"r3d", "it is a Record3D recording in its own coding; export it in Record3D as RGBD video or as EXR + JPG"},

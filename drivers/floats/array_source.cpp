@@ -24,7 +24,7 @@ std::string headerFor(const npy::Header& h) {
 
 // What to do with an array that is no picture, by its header (numpy's format).
 const char* whyNoPicture(std::span<const std::uint8_t> begin) {
-  const std::string_view header(reinterpret_cast<const char*>(begin.data()), begin.size());
+  const std::string_view header = npy::headerText(begin);
   if (header.find("'descr': '|O'") != header.npos)
     return "it holds objects of Python, such as a dictionary; if you trust the file, take its depth out: python3 -c "
            "'import numpy; d = numpy.load(\"FILE\", allow_pickle=True).item(); print(list(d)); "

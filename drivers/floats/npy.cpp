@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <utility>
 
 #include "drivers/floats/floats.h"
 #include "drivers/floats/npy_header.h"
@@ -17,6 +18,14 @@ constexpr std::size_t kFixedPart = 8;  // magic, version; then the header's leng
 
 std::string_view textOf(std::span<const std::uint8_t> bytes) noexcept {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Of a header whose first kFixedPart + 4 bytes are there: where its dictionary begins, and how long it is.
+std::pair<std::size_t, std::size_t> placeOfText(std::span<const std::uint8_t> begin) noexcept {
+  const std::size_t length_bytes = begin[6] == 1 ? 2 : 4;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{begin[kFixedPart + i]} << (8 * i);
+  return {kFixedPart + length_bytes, length};
 }
 
 // The text behind 'key': in the header, a Python dictionary.
@@ -88,16 +97,20 @@ bool isNpy(std::span<const std::uint8_t> begin) noexcept {
   return textOf(begin).starts_with(kMagic);
 }
 
+std::string_view headerText(std::span<const std::uint8_t> begin) noexcept {
+  if (!isNpy(begin) || begin.size() < kFixedPart + 4) return {};
+  const auto [from, length] = placeOfText(begin);
+  return textOf(begin).substr(from, length);
+}
+
 std::optional<Header> parseHeader(std::span<const std::uint8_t> begin) {
   if (!isNpy(begin) || begin.size() < kFixedPart + 4) return std::nullopt;
-  const std::size_t length_bytes = begin[6] == 1 ? 2 : 4;
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{begin[kFixedPart + i]} << (8 * i);
+  const auto [from, length] = placeOfText(begin);
   if (length > kLongestHeader) return std::nullopt;  // what is added below has to fit into 32 bits
   Header header;
-  header.begin = kFixedPart + length_bytes + length;
+  header.begin = from + length;
   if (begin[6] < 1 || begin[6] > 3 || header.begin > begin.size() || header.begin > kLongestHeader) return std::nullopt;
-  const std::string_view text = textOf(begin).substr(kFixedPart + length_bytes, length);
+  const std::string_view text = textOf(begin).substr(from, length);
   const auto type = valueOf(text, "descr"), fortran = valueOf(text, "fortran_order"), shape = valueOf(text, "shape");
   if (!type || !fortran || !shape || !readType(*type, header)) return std::nullopt;
   header.fortran = fortran->starts_with("True");

@@ -27,6 +27,8 @@ struct Header {
 };
 
 [[nodiscard]] bool isNpy(std::span<const std::uint8_t> begin) noexcept;
+// The header's dictionary, as far as `begin` has it; empty if it is no npy header.
+[[nodiscard]] std::string_view headerText(std::span<const std::uint8_t> begin) noexcept;
 // `begin`: the file's first kLongestHeader bytes, or the whole file. Nullopt if it is no npy header, if the numbers are
 // of another type, if the array has another shape, or if its pictures have more samples than
 // VideoDecoder::kMostSamples or more than 300 MB.

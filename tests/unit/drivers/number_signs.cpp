@@ -96,7 +96,7 @@ TEST(Npy, WhatHoldsDepthInAnotherWaySaysHowToTakeItOut) {
     header.resize(117, ' ');
     std::ofstream(folder / "z.npy", std::ios::binary)
         << std::string("\x93NUMPY\x01\0", 8) << static_cast<char>(header.size() + 1) << '\0' << header << '\n'
-        << std::string(512, 'x');
+        << ", 4)" << std::string(512, 'x');
     const auto opened = drivers::makeMediaSource(folder / "z.npy")->open(folder / "z.npy");
     return opened ? std::string() : std::string(opened.error().message);
   };

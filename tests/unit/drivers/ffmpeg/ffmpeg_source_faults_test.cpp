@@ -142,7 +142,7 @@ TEST(FfmpegSource, RecordingsThatNothingReadsAreNamedWithTheCommandThatConvertsT
       {"b.bin", "1280&720&1&"sv, {"COLMAP", "reshape(int(h), int(w))"}},
       {"depths.dmb", "\1\0\0\0\360\0\0\0"sv, {"Gipuma", "numpy.fromfile"}},
       {"a.flo", "PIEH"sv, {"optical flow", "no depth"}},
-      {"a.dcm", "\0\0\0\0"sv, {"medical", "no depth"}},
+      {"a.dcm", "\0\0\0\0"sv, {"medical", "if its numbers are depth", ".npy"}},
       {"a.zdf", "\x89HDF\r\n\x1a\n"sv, {"Zivid"}},
       {"a.dpt", "\360\0\0\0\100\1\0\0"sv, {"LINEMOD", "numpy.fromfile"}},
       {"a.png", "\x89PNG\r\n\x1a\n\0\0\0\rIHDR12345678123451234\0\0\0\10acTL"sv, {"animated", ".apng"}},
