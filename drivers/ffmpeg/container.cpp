@@ -254,7 +254,7 @@ void chooseProgramme(AVFormatContext& context) noexcept {
   }
 }
 
-Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
+Result<StreamInfo> describeStream(const AVStream& stream, bool timed, bool photo) {
   const AVCodecParameters& parameters = *stream.codecpar;
   StreamInfo info;
   info.index = stream.index;
@@ -283,7 +283,7 @@ Result<StreamInfo> describeStream(const AVStream& stream, bool timed) {
   info.forced = (stream.disposition & AV_DISPOSITION_FORCED) != 0;
   info.auxiliary = info.kind == StreamKind::Video && parameters.codec_tag == kAuxiliaryVideo;
 
-  auto native = std::make_unique<NativeStream>();
+  auto native = std::make_unique<NativeStream>(NativeStream{.parameters = {}, .photo = photo});
   native->parameters.reset(avcodec_parameters_alloc());
   if (!native->parameters || avcodec_parameters_copy(native->parameters.get(), &parameters) < 0) {
     return std::unexpected(openError(AVERROR(ENOMEM)));

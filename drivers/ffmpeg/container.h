@@ -27,7 +27,7 @@ inline constexpr AVRational kMicrosecond{1, AV_TIME_BASE};  // the time base of 
 [[nodiscard]] StreamKind kindOf(const AVStream& stream) noexcept;
 
 // Without a duration if the container has no times (`timed` false). Exhausted if out of memory.
-[[nodiscard]] Result<StreamInfo> describeStream(const AVStream& stream, bool timed);
+[[nodiscard]] Result<StreamInfo> describeStream(const AVStream& stream, bool timed, bool photo);
 
 // True for text files, which FFmpeg would render as a video of letters.
 [[nodiscard]] bool isTextArt(const AVFormatContext& context) noexcept;

@@ -71,14 +71,14 @@ class FfmpegDecoder final : public VideoDecoder, private BlockUser {
     if (const auto* described = native<NativeStream, NativeStreamDeleter>(stream.native)) {
       time_base_ = described->time_base;
       sample_aspect_ = described->sample_aspect;
-      return openCodec(*described->parameters, saysAlpha(stream));
+      return openCodec(*described->parameters, described->photo, saysAlpha(stream));
     }
     const ParametersPtr parameters = parametersFromWords(stream, AVMEDIA_TYPE_VIDEO);
     if (!parameters) return fail(ErrorCode::Exhausted, kNoMemory, ENOMEM);
-    return openCodec(*parameters);
+    return openCodec(*parameters, stream.counted);
   }
 
-  Result<void> openCodec(const AVCodecParameters& parameters, bool alpha = false) {
+  Result<void> openCodec(const AVCodecParameters& parameters, bool photo, bool alpha = false) {
     const AVCodec* const codec = decoderOf(parameters.codec_id, alpha);
     if (codec == nullptr) {
       return fail(ErrorCode::Unsupported, "this FFmpeg has no decoder for this codec; convert the film");
@@ -88,7 +88,7 @@ class FfmpegDecoder final : public VideoDecoder, private BlockUser {
     if (avcodec_parameters_to_context(context_.get(), &parameters) < 0) {
       return fail(ErrorCode::Corrupt, "the video stream's parameters are invalid; convert the film");
     }
-    context_->max_pixels = mostSamples(codec->id);  // also for a film whose size changes
+    context_->max_pixels = mostSamples(codec->id, photo);  // also for a film whose size changes
     context_->thread_count = kThreads;
     context_->thread_type = FF_THREAD_FRAME | FF_THREAD_SLICE;
     context_->pkt_timebase = kNanosecond;

@@ -39,8 +39,9 @@ constexpr Error kNoParts{ErrorCode::NotFound, 0,
 // FFmpeg decodes pictures to analyse a stream: it must skip those that are too large for the decoder.
 int findStreams(AVFormatContext& context) {
   std::vector<AVDictionary*> options(context.nb_streams, nullptr);
+  const bool photo = isOfPhotos(*context.iformat);
   for (std::size_t i = 0; i < options.size(); ++i) {
-    av_dict_set_int(&options[i], "max_pixels", mostSamples(context.streams[i]->codecpar->codec_id), 0);
+    av_dict_set_int(&options[i], "max_pixels", mostSamples(context.streams[i]->codecpar->codec_id, photo), 0);
   }
   const int found = avformat_find_stream_info(&context, options.empty() ? nullptr : options.data());
   for (AVDictionary*& of_stream : options) av_dict_free(&of_stream);

@@ -46,7 +46,7 @@ void boundBlocks() noexcept {
 
 void boundFfmpegBlocks() noexcept {
   const std::scoped_lock lock(blocks);
-  usual_most = 300'000'000;  // bytes; the largest picture, of four channels of 32 bits, has 268 MB
+  usual_most = 300'000'000;  // bytes; a film's largest picture, of four channels of 32 bits, has 268 MB
   if (!small) av_max_alloc(usual_most);
 }
 

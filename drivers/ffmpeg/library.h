@@ -44,6 +44,7 @@ struct NativeStream {
   ParametersPtr parameters;
   AVRational time_base{0, 1};
   AVRational sample_aspect{0, 1};  // the container's, which overrides the codec's; 0/1 if unspecified
+  bool photo = false;              // of a picture's file
 };
 struct NativeStreamDeleter {
   void operator()(NativeStream* stream) const noexcept { delete stream; }

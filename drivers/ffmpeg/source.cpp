@@ -107,9 +107,10 @@ class FfmpegSource final : public MediaSource {
     description.origin = origin();
     description.chapters = chaptersOf(*context_, start_);
     for (unsigned i = 0; i < context_->nb_streams; ++i) {
-      auto stream = describeStream(*context_->streams[i], timed_);
+      auto stream = describeStream(*context_->streams[i], timed_, isOfPhotos(*context_->iformat));
       if (!stream) return std::unexpected(stream.error());
-      if (auto note = halveSize(*stream)) description.notes.push_back(std::move(*note));
+      if (auto note = isOfPhotos(*context_->iformat) ? halveSize(*stream) : std::nullopt)
+        description.notes.push_back(std::move(*note));
       if (stream->duration == Duration(0)) stream->duration = description.duration;
       if (const auto own = stream_tags_.find(stream->index); own != stream_tags_.end()) {
         stream->tags.insert(own->second.begin(), own->second.end());

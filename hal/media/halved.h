@@ -11,8 +11,9 @@
 
 namespace relievo {
 
-// Of a photo (JPEG, PNG, WebP, HEIC): one of 50 megapixels. Its decoder halves it, so that it is within the limit of
-// all pictures; its stream states the halved size.
+// Of a photo (JPEG, PNG, WebP, HEIC): one of 50 megapixels, of not more than 300 MB as it is decoded, which FFmpeg's
+// blocks are bounded to (37 megapixels in four channels of 16 bits). Its decoder halves it, so that it is within the
+// limit of all pictures; its stream states the halved size.
 inline constexpr std::int64_t kMostOfPhoto = 3 * VideoDecoder::kMostSamples;
 
 // A line for the user about a photo of that size.

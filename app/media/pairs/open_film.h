@@ -19,7 +19,7 @@ struct OpenFilm {
   static constexpr Error kNoPicture{
       ErrorCode::Corrupt, 0,
       "not one picture of its video could be decoded; it is empty, damaged, unknown, or has more than 16.7 million "
-      "samples (50 million in a photo)"};
+      "samples (a photo: 50 million, and 300 MB decoded)"};
 
   explicit OpenFilm(PairReader::Backends b) : backends(std::move(b)) {}
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "hal/media/halved.h"
 
@@ -17,9 +18,14 @@ bool exceeds(int width, int height) noexcept {
 
 }  // namespace
 
-std::int64_t mostSamples(AVCodecID codec) noexcept {
-  const bool photo = std::ranges::find(kOfPhotos, codec) != kOfPhotos.end();
-  return photo ? kMostOfPhoto : VideoDecoder::kMostSamples;
+bool isOfPhotos(const AVInputFormat& format) noexcept {
+  const std::string_view name = format.name;
+  return name == "image2" || name.ends_with("_pipe");
+}
+
+std::int64_t mostSamples(AVCodecID codec, bool photo) noexcept {
+  const bool of_photos = std::ranges::find(kOfPhotos, codec) != kOfPhotos.end();
+  return photo && of_photos ? kMostOfPhoto : VideoDecoder::kMostSamples;
 }
 
 std::optional<std::string> halveSize(StreamInfo& stream) {

@@ -14,6 +14,7 @@ using test::ClipTrack;
 using test::makeClip;
 using test::openFilm;
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -50,15 +51,24 @@ TEST(LargePhoto, EverySecondRowAndColumnIsReadOfColourAndDepth) {
   EXPECT_THAT(film.info.notes, Contains(HasSubstr("a photo of 5120 x 3328")));
 }
 
+std::string refusalOf(const std::string& url) {
+  PairReader reader({.make_source = [](const std::string& file) { return drivers::makeMediaSource(file); },
+                     .make_decoder = [](const StreamInfo& stream) { return drivers::makeSoftwareDecoder(stream); },
+                     .read_text = {}});
+  const auto opened = reader.open({.url = url});
+  return opened ? "" : opened.error().message;
+}
+
 TEST(LargePhoto, OfOver50MegapixelsIsRefused) {
   const TemporaryFolder folder;
   makeClip(folder / "a.png", {{.codec = "png", .pix_fmt = "gray", .width = 8192, .height = 6208, .frames = 1}});
-  PairReader reader({.make_source = [](const std::string& url) { return drivers::makeMediaSource(url); },
-                     .make_decoder = [](const StreamInfo& stream) { return drivers::makeSoftwareDecoder(stream); },
-                     .read_text = {}});
-  const auto opened = reader.open({.url = folder / "a.png"});
-  ASSERT_FALSE(opened);
-  EXPECT_THAT(opened.error().message, HasSubstr("50 million"));
+  EXPECT_THAT(refusalOf(folder / "a.png"), AllOf(HasSubstr("50 million"), HasSubstr("300 MB decoded")));
+}
+
+TEST(LargePhoto, AFilmCodedAsPhotosAreIsNone) {
+  const TemporaryFolder folder;
+  makeClip(folder / "a.avi", {{.codec = "mjpeg", .pix_fmt = "yuvj420p", .width = kWide, .height = kHigh, .frames = 1}});
+  EXPECT_THAT(refusalOf(folder / "a.avi"), HasSubstr("16.7 million"));
 }
 
 }  // namespace
