@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/media/reading/near_end.h"
 #include "tests/support/film/clip_maker.h"
 #include "tests/support/film/opened_film.h"
 
@@ -43,6 +44,14 @@ TEST(NearEnd, AFilmOfPicturesIsNearWhereItIsBrightWhateverItsViewShows) {
   makeClip(folder / "depth/%03d.png", {darkerBelow("png", "gray", 25)});
   EXPECT_EQ(polarityOf(folder / "depth"), DepthPolarity::NearIsHigh);
   EXPECT_EQ(polarityOf(folder / "depth/001.png"), DepthPolarity::NearIsLow) << "a picture by itself";
+}
+
+// Photos of different things, of which the reader of pictures shows each for five seconds; a slow film has its own
+// times.
+TEST(NearEnd, PhotosAreStillsAndASlowFilmIsNone) {
+  EXPECT_TRUE(isStill({.average_rate = {200, 1000}, .counted = true}));
+  EXPECT_FALSE(isStill({.average_rate = {200, 1000}, .counted = false}));
+  EXPECT_FALSE(isStill({.average_rate = {30'000, 1000}, .counted = true}));
 }
 
 }  // namespace
