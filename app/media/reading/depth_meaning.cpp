@@ -50,7 +50,7 @@ bool is(std::string_view name, const KnownKind* kind) {
 bool isOfMmAsTum(const DepthClues& clues, const Frame& stored, const CodeCount& count) {
   if (!is("tum", clues.place.kind) || clues.place.origin != CalibrationOrigin::Name) return false;
   const KnownKind* const kind = sensorKind(stored, count);
-  return is("mm", kind) && (isTooNearForKinect(count.together()) || kindBySteps(count) == kind);
+  return is("mm", kind) && (isTooNearForKinect(count.together()) || kindBySteps(count, stored.width) == kind);
 }
 
 // Record3D states the range of the whole circle of hues, of which a film uses a part.

@@ -243,7 +243,7 @@ const KnownKind* sensorKind(const Frame& depth, const CodeCount& all) {
   if ((step > kMostStep && step != kTenths) || !isDistances(count)) return nullptr;  // fewer bits, stretched
   if (count.share(0, 0) > 0.5 && isScattered(depth)) return findKind("kitti");
   if (isNetwork(depth, count)) return nullptr;
-  if (const KnownKind* const measured = kindBySteps(count); measured != nullptr) return measured;
+  if (const KnownKind* const measured = kindBySteps(count, depth.width); measured != nullptr) return measured;
   const auto reach = count.reach(kOutliers, 1, kTop - 1);
   const CodeCount together = count.together();
   const bool far = reach.high > kFarthestMm || together.quantile(0.5, 1, kTop - 1) > kMiddleMm;

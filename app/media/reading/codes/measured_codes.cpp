@@ -80,17 +80,18 @@ std::optional<double> stereoConstant(const CodeCount& count) {
   return same ? std::optional(constants[constants.size() / 2]) : std::nullopt;
 }
 
-const KnownKind* kindBySteps(const CodeCount& count) {
+const KnownKind* kindBySteps(const CodeCount& count, int cols) {
   struct Constants {
     double least, most;
   };
-  constexpr Constants kMm{2.5e5, 1.7e6}, kTum{1.78e6, 1.92e6}, kTenths{2.15e6, 4.2e6};
+  constexpr Constants kMm{2.5e5, 1.7e6}, kTum{1.78e6, 1.92e6}, kTenths{2.15e6, 3.8e6};
+  constexpr int kKinectCols = 640;
   const auto constant = stereoConstant(count);
   const auto within = [&constant](const Constants& range) {
     return constant && *constant >= range.least && *constant <= range.most;
   };
   if (within(kMm)) return findKind("mm");
-  if (within(kTum)) return findKind(beginsNearerThanKinectSees(count) ? "mm" : "tum");
+  if (within(kTum) && cols <= kKinectCols) return findKind(beginsNearerThanKinectSees(count) ? "mm" : "tum");
   return within(kTenths) ? findKind("ycb") : nullptr;
 }
 

@@ -39,7 +39,8 @@ inline constexpr std::uint32_t kFarthestMm = 12000, kMiddleMm = 5000;
 // most 1.7 million (RealSense, Kinect), TUM's Kinects 1.86 million, those of 10000 codes a metre over 2.2 million
 // (RealSense D405, Xtion).
 [[nodiscard]] std::optional<double> stereoConstant(const CodeCount& count);
-// The kind that the constant shows; null if it shows none.
-[[nodiscard]] const KnownKind* kindBySteps(const CodeCount& count);
+// The kind that the constant of a picture of so many columns shows; null if it shows none. Kinect and Xtion have 640
+// columns; in pictures of 1280 a RealSense D455 in mm has the constant of TUM's Kinects.
+[[nodiscard]] const KnownKind* kindBySteps(const CodeCount& count, int cols);
 
 }  // namespace relievo

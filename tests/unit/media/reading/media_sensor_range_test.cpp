@@ -110,12 +110,15 @@ TEST(SensorRange, FarViewsOfWhatIsNearForAKinectAreInMillimetres) {
 // What a code is worth follows from how its steps grow: z = f b s / k for whole k, in codes. The focal lengths,
 // baselines and steps are those of the makers' data sheets; TUM's Kinects and the Xtion have 75 mm and 8 steps a pixel.
 TEST(SensorRange, AStereoCamerasStepsTellItsUnit) {
-  const auto kindOfCamera = [](double focal_px, double baseline_mm, double steps, double codes_a_mm) {
+  const auto stereo = [](double focal_px, double baseline_mm, double steps, double codes_a_mm) {
     const double constant = focal_px * baseline_mm * steps * codes_a_mm;
-    return kindIn(makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
+    return makeGrayFrame(kCols, kRows, 16, {}, [=](int c, int r) {
       const double mm = distanceMm(c, r) * (c > 100 ? 2 : 1);
       return mm == 0 ? 0 : static_cast<std::uint32_t>(std::lround(constant / std::round(constant / codes_a_mm / mm)));
-    }));
+    });
+  };
+  const auto kindOfCamera = [&](double focal_px, double baseline_mm, double steps, double codes_a_mm) {
+    return kindIn(stereo(focal_px, baseline_mm, steps, codes_a_mm));
   };
   EXPECT_EQ(kindOfCamera(385, 50, 32, 1), findKind("mm")) << "RealSense D435, 640 columns";
   EXPECT_EQ(kindOfCamera(910, 50, 32, 1), findKind("mm")) << "RealSense D435, 1280 columns";
@@ -123,6 +126,9 @@ TEST(SensorRange, AStereoCamerasStepsTellItsUnit) {
   EXPECT_EQ(kindOfCamera(620, 75, 8, 5), findKind("tum"));
   EXPECT_EQ(kindOfCamera(555, 75, 8, 10), findKind("ycb")) << "Xtion, in tenths of a mm";
   EXPECT_EQ(kindOfCamera(640, 18, 32, 10), findKind("ycb")) << "RealSense D405, 1280 columns";
+  // A wider picture with the constant of TUM's Kinects: RealSense D455, 1280 columns.
+  EXPECT_EQ(kindBySteps(CodeCount(stereo(640, 75, 8, 5)), kCols), findKind("tum"));
+  EXPECT_EQ(kindBySteps(CodeCount(stereo(640, 95, 32, 1)), 1280), nullptr);
   // Without steps the range decides, as for a renderer.
   const Frame even = makeGrayFrame(kCols, kRows, 16, {}, [](int c, int r) { return 5000u + 3 * c + 60 * r; });
   EXPECT_FALSE(stereoConstant(CodeCount(even)));
