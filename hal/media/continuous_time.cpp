@@ -7,6 +7,7 @@
 namespace relievo {
 namespace {
 
+constexpr int kLateBegin = 3;
 constexpr Duration kDisorder = std::chrono::milliseconds(200);  // decoding times rise; tolerance for rounding
 
 }  // namespace
@@ -21,7 +22,7 @@ void ContinuousTime::begin(Duration longest_gap) noexcept {
 
 bool ContinuousTime::goesOn(const Line* line, MediaTime time) const noexcept {
   if (!latest_) return true;
-  const bool falls = line != nullptr ? time < line->last - kDisorder : time < *latest_ - longest_gap_;
+  const bool falls = time < (line != nullptr ? line->last - kDisorder : *latest_ - kLateBegin * longest_gap_);
   return !falls && time <= *latest_ + longest_gap_;
 }
 

@@ -14,6 +14,9 @@ namespace relievo {
 // streams: a smaller gap is lost data, which the film waits out. Any other timestamp is a jump: it is moved to one step
 // (the stream's last) after the stream's last time. All streams get the same offset, so that they stay in sync.
 //
+// The first timestamp of a stream may lie three times `longest_gap` behind: a part of an HLS film has all its pictures
+// before its sound, and may last over 10 s.
+//
 // Streams are interleaved, so one reaches the jump before another. Until all have passed it, each packet gets the
 // offset, old or new, that continues its stream best. Pure arithmetic; one thread.
 class ContinuousTime {

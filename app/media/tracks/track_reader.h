@@ -32,10 +32,10 @@ namespace relievo {
 class TrackReader {
  public:
   static constexpr std::size_t kMaxTracks = 3;            // colour, depth, material
-  static constexpr std::size_t kMaxWaitingPackets = 512;  // 8 s at 60 frames/s
+  static constexpr std::size_t kMaxWaitingPackets = 768;  // 12 s at 60 frames/s
   static constexpr std::size_t kMaxWaitingBytes = std::size_t{64} << 20;
   // The largest interleaving offset that is followed: a part of an HLS film has all its pictures before its sound.
-  static constexpr Duration kReadAhead = std::chrono::seconds(10);
+  static constexpr Duration kReadAhead = std::chrono::seconds(12);
   TrackReader(std::unique_ptr<MediaSource> source,
               std::function<std::unique_ptr<VideoDecoder>(const StreamInfo&)> make_decoder);
 

@@ -101,9 +101,19 @@ TEST_F(ContinuousTimeTest, AStreamThatIsBehindDoesNotMakeAGapOfTheOther) {
 }
 
 TEST_F(ContinuousTimeTest, AStreamThatBeginsFartherBehindThanTheBoundBeginsWithTheLatest) {
-  place(0, 5000);
-  EXPECT_EQ(place(1, 0), 5000);
+  place(0, 7000);
+  EXPECT_EQ(place(1, 0), 7000);
   EXPECT_EQ(time_.jumps(), 1u);
+}
+
+// A part of an HLS film that is longer than the bound: all its pictures, then its sound.
+TEST_F(ContinuousTimeTest, SoundThatBeginsBehindALongPartIsNoJump) {
+  time_.begin(10s);
+  for (long long ms = 0; ms <= 10'400; ms += 40) EXPECT_EQ(place(0, ms), ms);
+  EXPECT_EQ(place(1, 50), 50);
+  EXPECT_EQ(place(1, 10'390), 10'390);
+  EXPECT_EQ(place(0, 10'440), 10'440);
+  EXPECT_EQ(time_.jumps(), 0u);
 }
 
 TEST_F(ContinuousTimeTest, ASeekBackIsNoJumpOfAnyStream) {

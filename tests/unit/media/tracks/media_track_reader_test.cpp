@@ -70,8 +70,8 @@ TEST(TrackReader, TheLeadingTrackIsNeverHeldUpByTheOther) {
   for (int k = 0; k < 3; ++k) script.push_back({0, 40 * k, true});
   Film film(script);
   EXPECT_EQ(film.next(0), 0);
-  EXPECT_EQ(film.next(1), 40 * 550);  // 512 were dropped, 513 to 549 cannot be decoded
-  EXPECT_EQ(film.next(1), 40 * 551);
+  EXPECT_EQ(film.next(1), 40 * 800);  // 768 were dropped, 769 to 799 cannot be decoded
+  EXPECT_EQ(film.next(1), 40 * 801);
 }
 
 TEST(TrackReader, HoldingMorePicturesThanTheDecoderAllowsIsAnErrorAndNoHang) {
