@@ -112,10 +112,11 @@ std::vector<std::string> namesIn(const std::string& line, ListKind kind) {
 
 void addFiles(const std::string& address, int depth, std::vector<std::string>& files);
 
-// A report or a recording may lie among the films. Of the JSON files, `addBeside` knows the one that is read.
+// A report or a recording may lie among the films. Of the JSON files, `addBeside` knows the one that is read; of the
+// others, Stray Scanner's odometry.csv is read.
 bool mayBeOutput(const std::string& name) {
   const std::string ending = endingOf(name);
-  return ending == "json" || ending == "csv";
+  return ending == "json" || (ending == "csv" && name != "odometry.csv");
 }
 
 // A folder of pictures, and its folders of colour and depth.

@@ -20,35 +20,42 @@ namespace relievo {
 namespace {
 
 constexpr const char* kIsFilm = "that is also a film that was played, and stays as it is; choose another file";
+constexpr const char* kMayBeFilm =
+    "the file system did not tell in time whether that is also a film that was played, so it stays as it is";
 
 // A film that was opened while the player ran (dropped on its window, named by a program) may be the output. The end
-// does not wait for film after film whose file system is silent: then it may be one of them.
-bool mayBeFilm(const std::string& output, const PlayReport& report) {
+// does not wait for film after film whose file system is silent: then it may be one of them. Null if it is none.
+const char* mayBeFilm(const std::string& output, const PlayReport& report) {
   constexpr int kMostSilent = 20, kMostSearched = 1000;  // for what belongs to them
   const std::atomic<bool> at_once = true;
   const CancelsAnswers cancels(at_once);
   const auto there = statusOf(output);
-  if (!there) return there.error().code != ErrorCode::NotFound;
+  if (!there) return there.error().code == ErrorCode::NotFound ? nullptr : kMayBeFilm;
   std::set<std::string> films = report.opened;
   films.insert(report.depth_source);
   int silent = 0, searched = 0;
-  return std::ranges::any_of(films, [&](const std::string& film) {
+  for (const std::string& film : films) {
     const CancelsAnswers anew(at_once);  // with a grace of its own
     const auto status = statusOf(localPathIn(film));
-    if (!status && status.error().code == ErrorCode::Cancelled) return ++silent == kMostSilent;
-    if (status && status->st_dev == there->st_dev && status->st_ino == there->st_ino) return true;
-    return ++searched <= kMostSearched && !keepApart({output}, {film, depthBeside(film)});
-  });
+    if (!status && status.error().code == ErrorCode::Cancelled) {
+      if (++silent == kMostSilent) return kMayBeFilm;
+      continue;
+    }
+    if (status && status->st_dev == there->st_dev && status->st_ino == there->st_ino) return kIsFilm;
+    if (++searched <= kMostSearched && !keepApart({output}, {film, depthBeside(film)})) return kIsFilm;
+  }
+  return nullptr;
 }
 
 // Puts an output in place, beside a file that may be one of the films.
 Outcome<void> putInPlace(AtomicFile& file, const PlayReport& report) {
   const std::string path = file.path();
-  if (mayBeFilm(path, report)) file.setExisting(Existing::Beside);
+  const char* const why = mayBeFilm(path, report);
+  if (why != nullptr) file.setExisting(Existing::Beside);
   if (auto done = file.commit(); !done) return failOn(path, done.error());
   if (file.path() == path) return {};
   return failOn(print("%s was written in place of %s", file.path().c_str(), path.c_str()),
-                {ErrorCode::InvalidArgument, 0, kIsFilm});
+                {ErrorCode::InvalidArgument, 0, why != nullptr ? why : kIsFilm});
 }
 
 }  // namespace
