@@ -94,6 +94,7 @@ std::string laterParts(std::string_view list, Duration from) {
       (isOfOnePart(line) ? part : whole) += line;
       continue;
     }
+    if (part.find(kRange) == std::string::npos) next_byte = 0;
     begun = begun || end > from;
     if (begun) {
       whole += part + line;
