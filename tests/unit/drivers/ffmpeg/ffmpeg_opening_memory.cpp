@@ -28,6 +28,7 @@ bool exceedsWith(int flags, bool on_another_thread) {
   OpeningMemory memory;
   memory.begin();
   void* const block = ::mmap(nullptr, kTooMuch, PROT_READ | PROT_WRITE, flags | MAP_ANONYMOUS, -1, 0);
+  ::madvise(block, kTooMuch, MADV_NOHUGEPAGE);  // which are not told by thread
   const auto fill = [block] { std::memset(block, 1, kTooMuch); };
   if (on_another_thread) std::thread(fill).join();
   else fill();
