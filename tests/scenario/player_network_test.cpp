@@ -77,7 +77,7 @@ class PlayerNetwork : public testing::Test {
     bench_.recorder = &*recorder;
     started_ = clock_.now();
     auto played = bench_.runOn(clock_);
-    EXPECT_TRUE(recorder->finish());
+    EXPECT_TRUE(recorder->file().commit());
     expectForceWithinLimits();
     tell();
     return played;

@@ -38,7 +38,7 @@ class PlayerRate : public testing::Test {
     EXPECT_TRUE(recorder);
     bench.recorder = &*recorder;
     EXPECT_TRUE(bench.run());
-    EXPECT_TRUE(recorder->finish());
+    EXPECT_TRUE(recorder->file().commit());
     return bench.report;
   }
   // The number of recorded ticks, and the longest step between their times.

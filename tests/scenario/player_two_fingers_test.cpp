@@ -62,7 +62,7 @@ class TwoFingers : public testing::Test {
     bench.recorder = &*recorder;
     bench.second_recorder = &*second_recorder;
     EXPECT_TRUE(bench.run());
-    EXPECT_TRUE(recorder->finish() && second_recorder->finish());
+    EXPECT_TRUE(recorder->file().commit() && second_recorder->file().commit());
     return {textOf("first.csv"), textOf("second.csv"), bench.report};
   }
   [[nodiscard]] std::string textOf(const char* name) const { return test::contentOf(folder_ / name); }

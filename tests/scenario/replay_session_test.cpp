@@ -37,7 +37,7 @@ class ReplayPath : public testing::Test {
     EXPECT_TRUE(bench.run());
     EXPECT_EQ(bench.report.faults.size(), 0u);
     EXPECT_GT(bench.report.haptic.max_force_n, 0.5);
-    EXPECT_TRUE(recorder->finish());
+    EXPECT_TRUE(recorder->file().commit());
     std::ostringstream text;
     text << std::ifstream(folder_ / name).rdbuf();
     return text.str();

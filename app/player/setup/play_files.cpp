@@ -53,9 +53,9 @@ Outcome<void> putInPlace(AtomicFile& file, const PlayReport& report) {
   const char* const why = mayBeFilm(path, report);
   if (why != nullptr) file.setExisting(Existing::Beside);
   if (auto done = file.commit(); !done) return failOn(path, done.error());
-  if (file.path() == path) return {};
+  if (why == nullptr || file.path() == path) return {};
   return failOn(print("%s was written in place of %s", file.path().c_str(), path.c_str()),
-                {ErrorCode::InvalidArgument, 0, why != nullptr ? why : kIsFilm});
+                {ErrorCode::InvalidArgument, 0, why});
 }
 
 }  // namespace

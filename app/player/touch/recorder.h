@@ -23,8 +23,7 @@ class Recorder {
   // The device whose ticks follow.
   void setDevice(const HapticCapabilities& device) noexcept { device_ = device; }
   void add(const FingerState& tick);
-  [[nodiscard]] Result<void> finish() { return file_.commit(); }
-  // The file, for what happens to one that is there already.
+  // To be committed at the end.
   [[nodiscard]] AtomicFile& file() noexcept { return file_; }
   [[nodiscard]] const std::string& path() const noexcept { return file_.path(); }
 

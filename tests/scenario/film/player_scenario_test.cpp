@@ -147,7 +147,7 @@ TEST_F(PlayerScenario, UntilTheSoughtPictureComesTheSurfaceStandsAsThePictureDoe
   bench_.press(1.0, KEY_FORWARD);
   bench_.press(2.0, KEY_STOP);
   playsWell();
-  ASSERT_TRUE(recorder->finish());
+  ASSERT_TRUE(recorder->file().commit());
 
   // The film's time, the twelfth column, as each tick saw it.
   std::vector<double> times;

@@ -179,7 +179,7 @@ TEST(Recorder, WritesALinePerTickFromTheFirstTicksTimeAndTheDeviceOnce) {
   mouse.in_scene = true;
   recorder->setDevice(mouse);
   recorder->add(tick);
-  ASSERT_TRUE(recorder->finish());
+  ASSERT_TRUE(recorder->file().commit());
 
   const std::ifstream file(path);
   std::ostringstream text;
