@@ -21,6 +21,9 @@ class PlayerTurn : public PlayerTransport {
     bench_.sources["film"].tracks[1].sample = height;
     bench_.haptic.position_mm = [](double t) { return glm::dvec3(20, 30, t < 1.5 ? 60 : 37 + 22 * std::cos(6 * t)); };
   }
+  void hasPictures(int count) {
+    for (auto& track : bench_.sources["film"].tracks) track.frames = count;
+  }
   void expectAfter(int presses, bool touched, double height_mm) {
     bench_.keys.clear();
     for (int i = 0; i < presses; ++i) bench_.press(0.5 + 0.2 * i, KEY_R);
@@ -79,7 +82,7 @@ TEST_F(PlayerTurn, LastsForAFilm) {
 
 // A pause, a seek and a turn before its picture has come.
 TEST_F(PlayerTurn, WorksWhileAFilmIsSought) {
-  bench_.sources["film"].tracks[0].frames = bench_.sources["film"].tracks[1].frames = 400;
+  hasPictures(400);
   bench_.press(0.5, KEY_RIGHT);
   bench_.press(0.5, KEY_R);
   bench_.press(4.0, KEY_STOP);
@@ -88,7 +91,7 @@ TEST_F(PlayerTurn, WorksWhileAFilmIsSought) {
 
 // The source is away from 10 s on; the seek waits, too.
 TEST_F(PlayerTurn, WhileAFilmWaitsForItsSourceItsPictureIsTurnedAtOnce) {
-  bench_.sources["film"].tracks[0].frames = bench_.sources["film"].tracks[1].frames = 1000;
+  hasPictures(1000);
   bench_.sources["film"].remote = true;
   bench_.sources["film"].lose_after_packets = 500;
   MockMediaProfile away = bench_.sources["film"];
@@ -108,7 +111,7 @@ TEST_F(PlayerTurn, WhileAFilmWaitsForItsSourceItsPictureIsTurnedAtOnce) {
 
 // A photo, which stands; then paused.
 TEST_F(PlayerTurn, OfAPhotoIsShownAtOnce) {
-  bench_.sources["film"].tracks[0].frames = bench_.sources["film"].tracks[1].frames = 1;
+  hasPictures(1);
   noteShapes();
   bench_.press(2.0, KEY_R);
   bench_.press(3.0, KEY_PAUSE);

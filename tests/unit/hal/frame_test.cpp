@@ -60,6 +60,15 @@ struct Picture {
   [[nodiscard]] const std::uint8_t* at(std::size_t i) const { return bytes.data() + i; }
 };
 
+// As YUYV.
+void pack(Picture& picture) {
+  picture.frame.chroma_shift_x = 1;
+  picture.frame.components[0] = {.offset_bytes = 0, .step_bytes = 2};
+  picture.frame.components[1] = {.offset_bytes = 1, .step_bytes = 4};
+  picture.frame.components[2] = {.offset_bytes = 3, .step_bytes = 4};
+  picture.frame.planes[0] = {picture.at(0), 36};
+}
+
 TEST(FrameCrop, OfGrayBytesBeginsAtTheirFirstByte) {
   Picture picture(ColorModel::Gray);
   picture.frame.planes[0] = {picture.at(0), 20};
@@ -102,11 +111,7 @@ TEST(FrameCrop, SemiPlanarChromaMovesOnce) {
 
 TEST(FrameCrop, OfPackedYuvKeepsEachPixelsChroma) {
   Picture picture(ColorModel::Yuv);
-  picture.frame.chroma_shift_x = 1;
-  picture.frame.components[0] = {.offset_bytes = 0, .step_bytes = 2};
-  picture.frame.components[1] = {.offset_bytes = 1, .step_bytes = 4};
-  picture.frame.components[2] = {.offset_bytes = 3, .step_bytes = 4};
-  picture.frame.planes[0] = {picture.at(0), 36};
+  pack(picture);
   expectPartOf(picture.frame, 6, 3, 8, 6);
 }
 
@@ -179,11 +184,7 @@ TEST(FrameHalved, KeepsEverySecondSampleOfEachLayout) {
 
 TEST(FrameHalved, PackedYuvIsRefused) {
   Picture picture(ColorModel::Yuv);
-  picture.frame.chroma_shift_x = 1;
-  picture.frame.components[0] = {.offset_bytes = 0, .step_bytes = 2};
-  picture.frame.components[1] = {.offset_bytes = 1, .step_bytes = 4};
-  picture.frame.components[2] = {.offset_bytes = 3, .step_bytes = 4};
-  picture.frame.planes[0] = {picture.at(0), 36};
+  pack(picture);
   EXPECT_FALSE(halved(picture.frame));
 }
 

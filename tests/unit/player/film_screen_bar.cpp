@@ -5,16 +5,22 @@
 namespace relievo {
 namespace {
 
-class FilmScreenBar : public test::FilmScreenStage {};
-
 // The display is 1280 x 720: the bar is 1200 long and begins at 40; its middle is 664 down.
+class FilmScreenBar : public test::FilmScreenStage {
+ protected:
+  static constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+
+  void showBar() {
+    stereo_ = {.layout = StereoLayout::Mono};
+    make();
+    EXPECT_TRUE(show());
+    screen_->wake(clock_.now());
+    screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
+  }
+};
+
 TEST_F(FilmScreenBar, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  screen_->wake(clock_.now());
-  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
-  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+  showBar();
   const auto at = [&](double x, double down, bool pressed) {
     return screen_->barAt({.across = x / 1280, .down = down, .pressed = pressed}, clock_.now());
   };
@@ -29,12 +35,7 @@ TEST_F(FilmScreenBar, APressOnTheBarHoldsItUntilTheButtonIsReleased) {
 
 // A notch of the wheel is told with the button up.
 TEST_F(FilmScreenBar, TheWheelOverTheBarDoesNotReleaseIt) {
-  stereo_ = {.layout = StereoLayout::Mono};
-  make();
-  EXPECT_TRUE(show());
-  screen_->wake(clock_.now());
-  screen_->write({.duration_s = 100}, MonotonicTime::max(), clock_.now());
-  constexpr double kOnIt = 664.0 / 720, kAbove = 0.4;
+  showBar();
   const SurfaceMouse wheel{.across = 0.5, .down = kOnIt, .notches = 1};
   const SurfaceMouse above{.across = 0.5, .down = kAbove, .notches = 1};
   EXPECT_TRUE(screen_->isOverBar(wheel));
@@ -68,7 +69,7 @@ TEST_F(FilmScreenBar, AFilmWithoutALengthHasABarForTheWheel) {
   EXPECT_FALSE(screen_->isOverBar(mouse)) << "it is not shown yet";
   screen_->write({}, MonotonicTime::max(), clock_.now());
   EXPECT_TRUE(screen_->isOverBar(mouse));
-  EXPECT_EQ(screen_->barAt({.across = 0.5, .down = 664.0 / 720}, clock_.now()), std::nullopt);
+  EXPECT_EQ(screen_->barAt({.across = 0.5, .down = kOnIt}, clock_.now()), std::nullopt);
 }
 
 }  // namespace
